@@ -1,0 +1,210 @@
+//! What an analysis returns: plain values that know the robot they came from.
+
+use crate::kinematics::WorkingMode;
+use crate::robot::{Robot, Window};
+use serde::Serialize;
+
+/// Version of the JSON layout of [`Analysis`]; raised when a field changes its meaning or goes away.
+pub const FORMAT_VERSION: u32 = 1;
+
+/// The generalized aspects of a robot (Definition 8) with all that was proved of them.
+///
+/// Serialises to the JSON of `aspecta analyze --json`. The cells behind it stay in memory:
+/// [`Analysis::cells`].
+#[derive(Clone, Debug, Serialize)]
+pub struct Analysis {
+    /// [`FORMAT_VERSION`].
+    pub format_version: u32,
+    /// The robot.
+    pub robot: Robot,
+    /// The box of poses that was paved; it holds the whole workspace.
+    pub window: Window,
+    /// Certified bounds on the number of generalized aspects, all modes and both signs together.
+    pub aspects: Count,
+    /// Theorem 1's hypothesis, leg by leg.
+    pub legs: Vec<LegReport>,
+    /// Table 1: the working modes.
+    pub modes: Vec<ModeReport>,
+    /// Table 2: one class per working mode and sign of det A, in the order of the modes, + before −.
+    pub classes: Vec<AspectClass>,
+    /// Definition 5 applied to this robot: what figures 6 and 7 show. Two entries, det A > 0 and < 0.
+    pub parallel_aspects: Vec<OldAspects>,
+    /// Definition 6 applied to this robot: domains of constant sign of the B_jj, one entry a mode.
+    pub serial_aspects: Vec<OldAspects>,
+    /// The run itself.
+    pub run: Run,
+    /// The cells and their labels.
+    #[serde(skip)]
+    pub(crate) labels: super::Labels,
+}
+
+/// Proved bounds on a number of aspects.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Count {
+    /// There are at least this many.
+    pub low: usize,
+    /// There are at most this many; `None` if no upper bound is proved.
+    pub high: Option<usize>,
+    /// Whether the bounds are equal: exactly `low`.
+    pub certified: bool,
+}
+
+/// The sign of det A.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+pub enum DetSign {
+    /// det A > 0.
+    #[serde(rename = "+")]
+    Positive,
+    /// det A < 0.
+    #[serde(rename = "-")]
+    Negative,
+}
+
+/// Theorem 1 for one leg.
+#[derive(Clone, Debug, Serialize)]
+pub struct LegReport {
+    /// Leg number, from 1.
+    pub leg: usize,
+    /// Kind of actuator.
+    pub actuator: &'static str,
+    /// Number of inverse solutions.
+    pub postures: usize,
+    /// Whether the leg is cuspidal: could change posture without a serial singularity.
+    pub cuspidal: bool,
+    /// Why, in a sentence.
+    pub reason: &'static str,
+}
+
+/// Whether something can be reached under the limits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Reachable {
+    /// Proved: a configuration is given.
+    Yes,
+    /// Proved: none exists.
+    No,
+    /// Neither is proved at this resolution.
+    Undecided,
+}
+
+/// A working mode (Definition 7).
+#[derive(Clone, Debug, Serialize)]
+pub struct ModeReport {
+    /// Mf_i, numbered from 1.
+    pub number: usize,
+    /// Its signs.
+    pub mode: WorkingMode,
+    /// Whether it can be reached under the limits.
+    pub reachable: Reachable,
+    /// A configuration in it, far from singularities among those found.
+    pub sample: Option<Sample>,
+}
+
+/// The aspects of one working mode and one sign of det A.
+#[derive(Clone, Debug, Serialize)]
+pub struct AspectClass {
+    /// The working mode.
+    pub mode: WorkingMode,
+    /// The sign of det A.
+    pub det_a: DetSign,
+    /// At least this many aspects (certified).
+    pub low: usize,
+    /// At most this many (certified), `None` if not proved.
+    pub high: Option<usize>,
+    /// Certified inner area or volume: unit² or unit³ (rad instead of unit for angles).
+    pub measure: f64,
+    /// Area or volume of the cells in which membership is undecided.
+    pub undecided: f64,
+    /// One entry for each of the `low` proved aspects, largest first.
+    pub aspects: Vec<Aspect>,
+}
+
+/// A generalized aspect A_ij, as far as it is proved.
+#[derive(Clone, Debug, Serialize)]
+pub struct Aspect {
+    /// Number within the whole analysis, from 1.
+    pub id: usize,
+    /// Certified inner area or volume.
+    pub measure: f64,
+    /// In how many certified connected pieces its inner cells fall: 1 if all are proved connected; k > 1
+    /// leaves open whether these are one aspect or up to k.
+    pub pieces: usize,
+    /// A configuration inside.
+    pub sample: Sample,
+    /// Bounds of the W-aspect WA_ij: the box that certainly holds it, per pose coordinate (a glued
+    /// coordinate may run over ±π).
+    pub w_bounds: Vec<(f64, f64)>,
+    /// Bounds of the Q-aspect QA_ij over the inner cells, per joint coordinate; (−π, π) for a full turn.
+    pub q_bounds: Vec<(f64, f64)>,
+}
+
+/// A configuration (X, q).
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Sample {
+    /// X.
+    pub pose: Vec<f64>,
+    /// q.
+    pub q: Vec<f64>,
+}
+
+/// The aspects of Definition 5 or 6, which do not separate the solutions of this kind of robot.
+#[derive(Clone, Debug, Serialize)]
+pub struct OldAspects {
+    /// `det A > 0`, `det A < 0`, or the signs of the B_jj.
+    pub name: String,
+    /// The domains found in the workspace, largest first (components of the inner cells; numerical at
+    /// this resolution, not a certified count).
+    pub domains: Vec<OldAspectSet>,
+    /// Measure of the part of W that the next entry's domains cover too: > 0 shows that the definition does not
+    /// separate the solutions.
+    pub overlap: f64,
+}
+
+/// One domain of Definition 5 or 6.
+#[derive(Clone, Debug, Serialize)]
+pub struct OldAspectSet {
+    /// Certified inner measure.
+    pub measure: f64,
+    /// A pose inside.
+    pub sample: Sample,
+}
+
+/// How the run went.
+#[derive(Clone, Debug, Serialize)]
+pub struct Run {
+    /// Boxes classified (all modes of a box count once).
+    pub boxes: u64,
+    /// Finest subdivision: cells are window / 2^depth.
+    pub depth: u32,
+    /// Width of the finest cells, per coordinate.
+    pub resolution: Vec<f64>,
+    /// Why the run ended.
+    pub stop: Stop,
+    /// Wall-clock seconds.
+    pub seconds: f64,
+}
+
+/// Why a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Stop {
+    /// The resolution asked for was reached.
+    Resolution,
+    /// The box budget was spent.
+    Boxes,
+    /// The time budget was spent.
+    Time,
+    /// Cancelled by the user.
+    Cancelled,
+}
+
+/// A cell of the paving as one class sees it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cell {
+    /// Lower corner (unused coordinates 0).
+    pub lo: [f64; 3],
+    /// Upper corner.
+    pub hi: [f64; 3],
+    /// The [`Aspect::id`] the cell certainly lies in, or `None` if undecided.
+    pub aspect: Option<usize>,
+}

@@ -1,0 +1,94 @@
+//! Joint limits as functions that are positive strictly inside.
+
+use super::leg::{Closure, Drive, drive, sum_of_squares};
+use super::placement::{Placement, into_frame};
+use crate::num::{Interval, Scalar, dot, dot_constant};
+use crate::robot::{Actuator, Leg, Limit};
+
+/// A leg at a pose, with q eliminated: what a limit looks at.
+pub struct LegAt<'a, T, const D: usize> {
+    /// The leg.
+    pub leg: &'a Leg,
+    /// d = C − A in the leg's frame.
+    pub span: [T; D],
+    /// The leg equation with q eliminated.
+    pub closure: Closure<T, D>,
+    /// h = √H.
+    pub h: T,
+}
+
+/// c_k > 0: how far inside `limit` the leg is in posture s, where `sh` = s h. Zero at the limit. The unit differs
+/// from limit to limit; only the sign has a meaning.
+#[inline(always)]
+pub fn margin<T: Scalar, const D: usize>(
+    limit: &Limit,
+    at: &LegAt<'_, T, D>,
+    sh: T,
+    placement: &Placement<T, D>,
+) -> T {
+    match limit {
+        Limit::ActuatorAngle { middle, half_cos } => {
+            match drive(&at.leg.actuator, &at.span, &at.closure, sh) {
+                Drive::Angle { cos, sin, norm } => {
+                    cos.scale(middle.0) + sin.scale(middle.1) - norm.scale(*half_cos)
+                }
+                Drive::Length(_) => T::constant(Interval::ENTIRE),
+            }
+        }
+        Limit::ActuatorLength { min, max } => match at.leg.actuator {
+            Actuator::Strut => {
+                let q2 = sum_of_squares(&at.span);
+                (q2 - T::constant(min.square())) * (T::constant(max.square()) - q2)
+            }
+            _ => {
+                let q = at.span[0] + sh;
+                (q - T::constant(*min)) * (T::constant(*max) - q)
+            }
+        },
+        Limit::Elbow { middle, half_cos } => {
+            let (bend, both) = bend(at);
+            bend.scale(middle.0) - sh.scale(middle.1) - T::constant(both * *half_cos)
+        }
+        Limit::SpatialElbow { min_cos, max_cos } => {
+            let (bend, both) = bend(at);
+            (T::constant(both * *min_cos) - bend) * (bend - T::constant(both * *max_cos))
+        }
+        Limit::BaseCone { axis, half_cos } => {
+            let rod = rod_direction(at, sh);
+            dot_constant(&axis[..D], &rod) - rod_length(at).scale(*half_cos)
+        }
+        Limit::PlatformCone { axis, half_cos } => {
+            let axis = into_frame(at.leg, &placement.turned(axis));
+            dot(&axis, &rod_direction(at, sh)) - rod_length(at).scale(*half_cos)
+        }
+    }
+}
+
+/// (2LM cos ψ, 2LM) with ψ the angle at B: ‖d‖² = L² + M² + 2LM cos ψ, and 2LM sin ψ = −s h.
+#[inline(always)]
+fn bend<T: Scalar, const D: usize>(at: &LegAt<'_, T, D>) -> (T, Interval) {
+    match at.leg.actuator {
+        Actuator::Revolute { crank, rod } => (
+            sum_of_squares(&at.span) - T::constant(crank.square() + rod.square()),
+            Interval::point(2.0) * crank * rod,
+        ),
+        _ => (T::constant(Interval::ENTIRE), Interval::point(1.0)),
+    }
+}
+
+/// The rod's direction in the leg's frame, times [`rod_length`].
+#[inline(always)]
+fn rod_direction<T: Scalar, const D: usize>(at: &LegAt<'_, T, D>, sh: T) -> [T; D] {
+    std::array::from_fn(|k| at.closure.fixed[k] + sh * at.closure.swing[k])
+}
+
+/// ‖weight · ∂f/∂d‖ = 2 M weight (2 q for a strut).
+#[inline(always)]
+fn rod_length<T: Scalar, const D: usize>(at: &LegAt<'_, T, D>) -> T {
+    match at.leg.actuator {
+        Actuator::Revolute { rod, .. } | Actuator::Prismatic { rod } => {
+            at.closure.weight.scale(rod + rod)
+        }
+        _ => at.h + at.h,
+    }
+}

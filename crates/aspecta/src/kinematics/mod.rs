@@ -1,0 +1,79 @@
+//! Inverse and direct geometric models, Jacobians and singularities (section 2 of the paper).
+
+pub mod leg;
+pub mod placement;
+mod working_mode;
+mod inverse;
+mod jacobian;
+pub mod limits;
+
+pub use inverse::LegSolutions;
+pub use jacobian::Jacobians;
+pub use working_mode::{NotAMode, WorkingMode};
+
+use serde::Serialize;
+
+/// Runs a function generic over (D, N) — the dimension of space and the degrees of freedom — for the
+/// dimensions of a platform.
+macro_rules! for_platform {
+    ($platform:expr, $f:ident ( $($arg:expr),* $(,)? )) => {
+        match $platform {
+            $crate::robot::Platform::PlanePoint => $f::<2, 2>($($arg),*),
+            $crate::robot::Platform::PlaneBody => $f::<2, 3>($($arg),*),
+            $crate::robot::Platform::TranslatingBody | $crate::robot::Platform::TurningBody => $f::<3, 3>($($arg),*),
+            $crate::robot::Platform::FreeBody => $f::<3, 6>($($arg),*),
+        }
+    };
+}
+pub(crate) use for_platform;
+
+/// A configuration (X, q) of the robot, labelled: what `ik` and `fk` return.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Solution {
+    /// X, as [`crate::robot::Platform::coordinates`] orders it; angles in rad, in (−π, π].
+    pub pose: Vec<f64>,
+    /// q; angles in rad, in (−π, π].
+    pub q: Vec<f64>,
+    /// The working mode: signs of B_jj.
+    pub mode: WorkingMode,
+    /// det A = det ∂f/∂X.
+    pub det_a: f64,
+    /// Largest |f_i| relative to the leg's lengths squared.
+    pub residual: f64,
+    /// Whether existence and uniqueness near here are proved by intervals.
+    pub certified: bool,
+    /// Whether every joint is within its limits.
+    pub within_limits: bool,
+}
+
+/// Input that does not fit the robot.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum KinematicsError {
+    /// Wrong number of coordinates.
+    #[error("robot `{robot}` has {wanted} {what} coordinates ({names}), but {found} were given")]
+    Length {
+        /// Robot name.
+        robot: String,
+        /// `pose` or `joint`.
+        what: &'static str,
+        /// Their names.
+        names: String,
+        /// Number wanted.
+        wanted: usize,
+        /// Number given.
+        found: usize,
+    },
+    /// NaN or infinity.
+    #[error("{what} coordinate {index} is {value}: give a finite number")]
+    NotFinite {
+        /// `pose` or `joint`.
+        what: &'static str,
+        /// Index from 1.
+        index: usize,
+        /// The value.
+        value: f64,
+    },
+    /// The direct problem of this platform is not implemented.
+    #[error("the direct problem of `{0}` platforms is not available yet (it is for plane-point, plane-body and translating-body)")]
+    NoDirectModel(crate::robot::Platform),
+}

@@ -1,0 +1,155 @@
+//! Where the platform puts the attachment points, and how a force at one acts on the platform.
+
+use crate::num::{Jet, Scalar, dot_constant};
+use crate::robot::{Leg, Platform};
+
+/// The platform's frame in the base: C_i = origin + rotation · c_i.
+#[derive(Clone, Copy, Debug)]
+pub struct Placement<T, const D: usize> {
+    origin: [T; D],
+    rotation: Option<[[T; D]; D]>,
+}
+
+impl<T: Scalar, const D: usize> Placement<T, D> {
+    /// The placement of the pose `x`; `turn(k)` gives (sin, cos) of the angle `x[k]`.
+    #[inline(always)]
+    pub fn new(platform: Platform, x: &[T], turn: impl Fn(usize) -> (T, T)) -> Self {
+        let zero = T::zero();
+        let origin = |n: usize| std::array::from_fn(|k| if k < n { x[k] } else { zero });
+        match platform {
+            Platform::PlanePoint => Self { origin: origin(2), rotation: None },
+            Platform::TranslatingBody => Self { origin: origin(3), rotation: None },
+            Platform::PlaneBody => {
+                let (s, c) = turn(2);
+                let mut r = [[zero; D]; D];
+                (r[0][0], r[0][1]) = (c, -s);
+                (r[1][0], r[1][1]) = (s, c);
+                Self { origin: origin(2), rotation: Some(r) }
+            }
+            Platform::TurningBody => Self { origin: [zero; D], rotation: Some(spatial(turn, 0)) },
+            Platform::FreeBody => Self { origin: origin(3), rotation: Some(spatial(turn, 3)) },
+        }
+    }
+
+    /// The placement of the pose `x`, with sines and cosines computed here.
+    pub fn at(platform: Platform, x: &[T]) -> Self {
+        Self::new(platform, x, |k| x[k].sin_cos())
+    }
+
+    /// The arm r = R c from the platform's origin to the leg's attachment, base frame.
+    #[inline(always)]
+    pub fn arm(&self, leg: &Leg) -> [T; D] {
+        self.turned(&leg.attachment)
+    }
+
+    /// A vector fixed in the platform, in the base frame.
+    #[inline(always)]
+    pub fn turned(&self, v: &[crate::num::Interval; 3]) -> [T; D] {
+        match &self.rotation {
+            None => std::array::from_fn(|k| T::constant(v[k])),
+            Some(r) => std::array::from_fn(|k| dot_constant(&v[..D], &r[k])),
+        }
+    }
+
+    /// d = C − A in the leg's own frame, `arm` being the leg's arm.
+    #[inline(always)]
+    pub fn span(&self, leg: &Leg, arm: &[T; D]) -> [T; D] {
+        let d: [T; D] = std::array::from_fn(|k| {
+            // Constants first: for a platform that does not turn, arm and anchor are both constants.
+            match self.rotation {
+                None => self.origin[k] - T::constant(leg.anchor[k] - leg.attachment[k]),
+                Some(_) => self.origin[k] + arm[k] - T::constant(leg.anchor[k]),
+            }
+        });
+        into_frame(leg, &d)
+    }
+}
+
+/// R = R_z(yaw) R_y(pitch) R_x(roll), roll being coordinate `first`.
+#[inline(always)]
+fn spatial<T: Scalar, const D: usize>(turn: impl Fn(usize) -> (T, T), first: usize) -> [[T; D]; D] {
+    let (sr, cr) = turn(first);
+    let (sp, cp) = turn(first + 1);
+    let (sy, cy) = turn(first + 2);
+    let rows = [
+        [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+        [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+        [-sp, cp * sr, cp * cr],
+    ];
+    std::array::from_fn(|i| std::array::from_fn(|j| rows[i][j]))
+}
+
+/// A base vector in the leg's frame.
+#[inline(always)]
+pub fn into_frame<T: Scalar, const D: usize>(leg: &Leg, v: &[T; D]) -> [T; D] {
+    std::array::from_fn(|k| dot_constant(&leg.frame[k][..D], v))
+}
+
+/// A vector of the leg's frame in the base.
+#[inline(always)]
+pub fn out_of_frame<T: Scalar, const D: usize>(leg: &Leg, v: &[T; D]) -> [T; D] {
+    std::array::from_fn(|k| {
+        let column: [_; D] = std::array::from_fn(|i| leg.frame[i][k]);
+        dot_constant(&column, v)
+    })
+}
+
+/// The row of A that belongs to the gradient g = ∂f/∂C (base frame) at the end of `arm`: the wrench
+/// (g, arm × g) about the platform's origin, in the order (translation, rotation).
+///
+/// For spatial rotations the derivative is with respect to the angular velocity in the base frame, not
+/// to the rates of roll, pitch and yaw, so det A has no singularity of representation.
+#[inline(always)]
+pub fn wrench<T: Scalar, const D: usize, const N: usize>(platform: Platform, g: &[T; D], arm: &[T; D]) -> [T; N] {
+    let moment = |i: usize, j: usize| arm[i] * g[j] - arm[j] * g[i];
+    let mut row = [T::zero(); N];
+    match platform {
+        Platform::PlanePoint | Platform::TranslatingBody => row[..D].copy_from_slice(g),
+        Platform::PlaneBody => {
+            (row[0], row[1]) = (g[0], g[1]);
+            row[2] = moment(0, 1);
+        }
+        Platform::TurningBody => {
+            (row[0], row[1], row[2]) = (moment(1, D - 1), moment(D - 1, 0), moment(0, 1));
+        }
+        Platform::FreeBody => {
+            row[..D].copy_from_slice(g);
+            (row[N - 3], row[N - 2], row[N - 1]) = (moment(1, D - 1), moment(D - 1, 0), moment(0, 1));
+        }
+    }
+    row
+}
+
+/// ∂f/∂C in the base frame and ∂f/∂q of one leg, by differentiating its equation.
+pub fn leg_gradient<T: Scalar, const D: usize>(leg: &Leg, d: &[T; D], q: T) -> (T, [T; D], T) {
+    // Four variables: up to three components of d, and q last.
+    let variable = |x: T, k: usize| Jet::<T, 4>::variable(x, k);
+    let jets: [Jet<T, 4>; D] = std::array::from_fn(|k| variable(d[k], k));
+    let f = super::leg::equation(&leg.actuator, &jets, variable(q, 3));
+    let local: [T; D] = std::array::from_fn(|k| f.gradient[k]);
+    (f.value, out_of_frame(leg, &local), f.gradient[3])
+}
+
+/// The determinant, by expansion along rows with shared minors: N 2^(N−1) products, no division, so it
+/// holds for enclosures.
+pub fn determinant<T: Scalar, const N: usize>(m: &[[T; N]; N]) -> T {
+    debug_assert!(N <= 6, "minors are tabulated for at most six columns");
+    // minors[set]: determinant of the last |set| rows in the columns of `set`.
+    let mut minors = [T::constant(crate::num::Interval::point(1.0)); 64];
+    for set in 1usize..1 << N {
+        let row = N - set.count_ones() as usize;
+        let mut sum: Option<T> = None;
+        let mut plus = true;
+        for k in (0..N).filter(|k| set >> k & 1 == 1) {
+            let term = if set == 1 << k { m[row][k] } else { m[row][k] * minors[set & !(1 << k)] };
+            sum = Some(match sum {
+                None => term,
+                Some(s) if plus => s + term,
+                Some(s) => s - term,
+            });
+            plus = !plus;
+        }
+        minors[set] = sum.unwrap_or_else(T::zero);
+    }
+    minors[(1 << N) - 1]
+}

@@ -1,0 +1,10 @@
+//! # Aspecta
+//!
+//! Which solution is a parallel robot in, and where can it go from there without meeting a singularity?
+//!
+//! The theory is Chablat & Wenger, *Mechanism and Machine Theory* 36(6), 2001; "the paper" throughout.
+//! Data flows one way: [`robot`] → [`kinematics`] → `paving` → `aspect` → `motion`.
+
+pub mod kinematics;
+pub mod num;
+pub mod robot;

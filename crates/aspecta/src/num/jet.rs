@@ -1,0 +1,138 @@
+//! Forward-mode derivatives.
+
+use super::{Interval, Scalar};
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A value and its gradient with respect to `N` variables.
+///
+/// Over [`Interval`] or [`super::Pack`] the gradient encloses all gradients over the box, which is what the
+/// mean-value form needs. A `Jet<Jet<f64, N>, N>` carries the Hessian.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Jet<T, const N: usize> {
+    /// The value.
+    pub value: T,
+    /// ∂value/∂xₖ.
+    pub gradient: [T; N],
+}
+
+impl<T: Scalar, const N: usize> Jet<T, N> {
+    /// The `k`-th variable, with value `value`.
+    #[inline(always)]
+    pub fn variable(value: T, k: usize) -> Self {
+        let mut gradient = [T::zero(); N];
+        gradient[k] = T::constant(Interval::point(1.0));
+        Self { value, gradient }
+    }
+
+    /// A number that does not depend on the variables.
+    #[inline(always)]
+    pub fn fixed(value: T) -> Self {
+        Self { value, gradient: [T::zero(); N] }
+    }
+
+    /// A function of `self` with the given value and slope: the chain rule.
+    #[inline(always)]
+    pub fn chain(self, value: T, slope: T) -> Self {
+        Self { value, gradient: self.gradient.map(|g| g * slope) }
+    }
+}
+
+impl<T: Scalar, const N: usize> Scalar for Jet<T, N> {
+    #[inline(always)]
+    fn constant(c: Interval) -> Self {
+        Self::fixed(T::constant(c))
+    }
+    #[inline(always)]
+    fn square(self) -> Self {
+        self.chain(self.value.square(), self.value + self.value)
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        let root = self.value.sqrt();
+        self.chain(root, T::constant(Interval::point(0.5)) / root)
+    }
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        let (s, c) = self.value.sin_cos();
+        (self.chain(s, c), self.chain(c, -s))
+    }
+    #[inline(always)]
+    fn scale(self, c: Interval) -> Self {
+        Self { value: self.value.scale(c), gradient: self.gradient.map(|g| g.scale(c)) }
+    }
+}
+
+impl<T: Scalar, const N: usize> Neg for Jet<T, N> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self { value: -self.value, gradient: self.gradient.map(|g| -g) }
+    }
+}
+
+impl<T: Scalar, const N: usize> Add for Jet<T, N> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, b: Self) -> Self {
+        Self {
+            value: self.value + b.value,
+            gradient: std::array::from_fn(|k| self.gradient[k] + b.gradient[k]),
+        }
+    }
+}
+
+impl<T: Scalar, const N: usize> Sub for Jet<T, N> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, b: Self) -> Self {
+        Self {
+            value: self.value - b.value,
+            gradient: std::array::from_fn(|k| self.gradient[k] - b.gradient[k]),
+        }
+    }
+}
+
+impl<T: Scalar, const N: usize> Mul for Jet<T, N> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, b: Self) -> Self {
+        Self {
+            value: self.value * b.value,
+            gradient: std::array::from_fn(|k| self.gradient[k] * b.value + self.value * b.gradient[k]),
+        }
+    }
+}
+
+impl<T: Scalar, const N: usize> Div for Jet<T, N> {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, b: Self) -> Self {
+        let value = self.value / b.value;
+        Self {
+            value,
+            gradient: std::array::from_fn(|k| (self.gradient[k] - value * b.gradient[k]) / b.value),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn formula<T: Scalar>(x: T, y: T) -> T {
+        let (s, c) = (x * y).sin_cos();
+        (x.square() + y * s).sqrt() / (c + T::constant(Interval::point(3.0))) - x * c
+    }
+
+    proptest! {
+        #[test]
+        fn the_gradient_is_that_of_finite_differences(x in 2.0..4.0f64, y in -1.0..1.0f64) {
+            let j = formula(Jet::<f64, 2>::variable(x, 0), Jet::variable(y, 1));
+            let h = 1e-6;
+            let dx = (formula(x + h, y) - formula(x - h, y)) / (2.0 * h);
+            let dy = (formula(x, y + h) - formula(x, y - h)) / (2.0 * h);
+            prop_assert!((j.gradient[0] - dx).abs() < 1e-7 && (j.gradient[1] - dy).abs() < 1e-7);
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! The scalars every formula of the crate is generic over.
+//!
+//! The kinematics are written once, for any [`Scalar`]:
+//!
+//! | scalar | what a formula yields |
+//! |---|---|
+//! | `f64` | a number, to rounding: *numerical* |
+//! | [`Interval`] | bounds that hold the exact value: *certified* |
+//! | [`Pack`] | eight intervals at once, for eight sibling boxes of a paving |
+//! | [`Jet`] over any of these | the value and its gradient (forward mode) |
+
+mod interval;
+mod jet;
+mod pack;
+
+pub use interval::Interval;
+pub use jet::Jet;
+pub use pack::{LANES, Mask, Pack};
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A number, an enclosure of numbers, or either with its gradient.
+///
+/// Every operation on an enclosing scalar returns an enclosure of all results over all operands
+/// (the inclusion property), so a formula evaluated on enclosures encloses its exact range.
+pub trait Scalar:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// The constant `c`; a plain `f64` takes its midpoint.
+    fn constant(c: Interval) -> Self;
+
+    /// `self²`, tighter than `self * self` on enclosures.
+    fn square(self) -> Self;
+
+    /// √max(self, 0): the part of an enclosure below zero is cut off. Callers test the sign first.
+    fn sqrt(self) -> Self;
+
+    /// (sin, cos) of an angle in radians.
+    fn sin_cos(self) -> (Self, Self);
+
+    /// The constant zero.
+    fn zero() -> Self {
+        Self::constant(Interval::point(0.0))
+    }
+
+    /// `c · self`. Robots are full of zeros and ones (anchors at the origin, axis-aligned frames):
+    /// both cost nothing.
+    #[inline(always)]
+    fn scale(self, c: Interval) -> Self {
+        if c == Interval::point(1.0) { self } else { self * Self::constant(c) }
+    }
+}
+
+impl Scalar for f64 {
+    #[inline(always)]
+    fn constant(c: Interval) -> Self {
+        c.mid()
+    }
+    #[inline(always)]
+    fn square(self) -> Self {
+        self * self
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        f64::sqrt(self.max(0.0))
+    }
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        f64::sin_cos(self)
+    }
+}
+
+/// Σ aₖ bₖ.
+#[inline(always)]
+pub fn dot<T: Scalar, const D: usize>(a: &[T; D], b: &[T; D]) -> T {
+    let mut sum = a[0] * b[0];
+    for k in 1..D {
+        sum = sum + a[k] * b[k];
+    }
+    sum
+}
+
+/// Σ cₖ aₖ with constant cₖ: exact zeros cost nothing.
+#[inline(always)]
+pub fn dot_constant<T: Scalar, const D: usize>(c: &[Interval], a: &[T; D]) -> T {
+    let mut sum: Option<T> = None;
+    for k in 0..D {
+        if c[k] == Interval::point(0.0) {
+            continue;
+        }
+        let term = a[k].scale(c[k]);
+        sum = Some(match sum {
+            Some(s) => s + term,
+            None => term,
+        });
+    }
+    sum.unwrap_or_else(T::zero)
+}

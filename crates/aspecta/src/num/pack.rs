@@ -1,0 +1,238 @@
+//! Eight intervals at once.
+
+use super::interval::{ETA, PHI};
+use super::{Interval, Scalar};
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// Intervals in a [`Pack`]: the children of an octree cell.
+pub const LANES: usize = 8;
+
+/// A yes or no for each lane.
+pub type Mask = [bool; LANES];
+
+/// Eight intervals, bounds stored apart so that every operation is eight identical, branch-free
+/// lanes which the compiler turns into vector instructions of whatever width the target has.
+///
+/// Bounds must stay finite: `min` and `max` here are the machine's, which lose a NaN. The paving sees
+/// to that (no division by zero, robot dimensions bounded by the robot file's rules).
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+pub struct Pack {
+    /// Lower bounds.
+    pub lo: [f64; LANES],
+    /// Upper bounds.
+    pub hi: [f64; LANES],
+}
+
+#[inline(always)]
+fn least(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+#[inline(always)]
+fn most(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+/// See [`super::interval`]: the same outward step without its guard against NaN.
+#[inline(always)]
+fn down(x: f64) -> f64 {
+    x - (x.abs() * PHI + ETA)
+}
+
+#[inline(always)]
+fn up(x: f64) -> f64 {
+    x + (x.abs() * PHI + ETA)
+}
+
+impl Pack {
+    /// The pack whose lane k is `f(k)`.
+    #[inline(always)]
+    pub fn from_fn(f: impl Fn(usize) -> Interval) -> Self {
+        let mut p = Self { lo: [0.0; LANES], hi: [0.0; LANES] };
+        for k in 0..LANES {
+            let i = f(k);
+            p.lo[k] = i.lo;
+            p.hi[k] = i.hi;
+        }
+        p
+    }
+
+    /// Lane `k`.
+    #[inline(always)]
+    pub fn lane(&self, k: usize) -> Interval {
+        Interval { lo: self.lo[k], hi: self.hi[k] }
+    }
+
+    #[inline(always)]
+    fn lanes(f: impl Fn(usize) -> (f64, f64)) -> Self {
+        let mut p = Self { lo: [0.0; LANES], hi: [0.0; LANES] };
+        for k in 0..LANES {
+            (p.lo[k], p.hi[k]) = f(k);
+        }
+        p
+    }
+
+    /// The common part, lane by lane, of two enclosures of the same numbers.
+    #[inline(always)]
+    pub fn meet(self, b: Self) -> Self {
+        Self::lanes(|k| (most(self.lo[k], b.lo[k]), least(self.hi[k], b.hi[k])))
+    }
+
+    /// Lane by lane, `self` where `mask` holds, else `other`.
+    #[inline(always)]
+    pub fn select(mask: &Mask, yes: Self, no: Self) -> Self {
+        Self::lanes(|k| if mask[k] { (yes.lo[k], yes.hi[k]) } else { (no.lo[k], no.hi[k]) })
+    }
+
+    /// Lanes proved > 0.
+    #[inline(always)]
+    pub fn positive(&self) -> Mask {
+        self.lo.map(|x| x > 0.0)
+    }
+
+    /// Lanes proved < 0.
+    #[inline(always)]
+    pub fn negative(&self) -> Mask {
+        self.hi.map(|x| x < 0.0)
+    }
+
+    /// self + Σ gₖ·[−rₖ, rₖ]: the mean-value form about a centre where `self` is the value.
+    #[inline(always)]
+    pub fn mean_value<const N: usize>(self, gradient: &[Self; N], radius: &[f64; N]) -> Self {
+        Self::lanes(|k| {
+            let mut reach = 0.0;
+            for n in 0..N {
+                let steepest = most(-gradient[n].lo[k], gradient[n].hi[k]);
+                reach = up(reach + up(steepest * radius[n]));
+            }
+            (down(self.lo[k] - reach), up(self.hi[k] + reach))
+        })
+    }
+}
+
+impl Scalar for Pack {
+    #[inline(always)]
+    fn constant(c: Interval) -> Self {
+        Self { lo: [c.lo; LANES], hi: [c.hi; LANES] }
+    }
+
+    #[inline(always)]
+    fn square(self) -> Self {
+        Self::lanes(|k| {
+            let nearest = most(most(self.lo[k], -self.hi[k]), 0.0);
+            let farthest = most(-self.lo[k], self.hi[k]);
+            (most(down(nearest * nearest), 0.0), up(farthest * farthest))
+        })
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self::lanes(|k| {
+            (most(down(most(self.lo[k], 0.0).sqrt()), 0.0), up(most(self.hi[k], 0.0).sqrt()))
+        })
+    }
+
+    fn sin_cos(self) -> (Self, Self) {
+        let both = std::array::from_fn::<_, LANES, _>(|k| self.lane(k).sin_cos());
+        (Self::from_fn(|k| both[k].0), Self::from_fn(|k| both[k].1))
+    }
+
+    #[inline(always)]
+    fn scale(self, c: Interval) -> Self {
+        if c == Interval::point(1.0) {
+            self
+        } else if c.lo >= 0.0 {
+            // The sign is known: half the products of the general case.
+            Self::lanes(|k| {
+                let (lo, hi) = (self.lo[k], self.hi[k]);
+                (down(least(lo * c.lo, lo * c.hi)), up(most(hi * c.lo, hi * c.hi)))
+            })
+        } else {
+            self * Self::constant(c)
+        }
+    }
+}
+
+impl Neg for Pack {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self { lo: self.hi.map(|x| -x), hi: self.lo.map(|x| -x) }
+    }
+}
+
+impl Add for Pack {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, b: Self) -> Self {
+        Self::lanes(|k| (down(self.lo[k] + b.lo[k]), up(self.hi[k] + b.hi[k])))
+    }
+}
+
+impl Sub for Pack {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, b: Self) -> Self {
+        Self::lanes(|k| (down(self.lo[k] - b.hi[k]), up(self.hi[k] - b.lo[k])))
+    }
+}
+
+impl Mul for Pack {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, b: Self) -> Self {
+        Self::lanes(|k| {
+            let p = self.lo[k] * b.lo[k];
+            let q = self.lo[k] * b.hi[k];
+            let r = self.hi[k] * b.lo[k];
+            let s = self.hi[k] * b.hi[k];
+            (down(least(least(p, q), least(r, s))), up(most(most(p, q), most(r, s))))
+        })
+    }
+}
+
+impl Div for Pack {
+    type Output = Self;
+    /// Lane by lane; lanes whose divisor may be zero come out as [`Interval::ENTIRE`] and must be
+    /// masked away before anything else is done with them.
+    fn div(self, b: Self) -> Self {
+        Self::from_fn(|k| self.lane(k) / b.lane(k))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn interval() -> impl Strategy<Value = Interval> {
+        (-9.0..9.0f64, 0.0..3.0f64).prop_map(|(x, w)| Interval::new(x, x + w))
+    }
+
+    proptest! {
+        /// A pack must enclose at least what the single interval does; the two agree bit for bit.
+        #[test]
+        fn lanes_are_intervals(a in prop::array::uniform8(interval()), b in prop::array::uniform8(interval())) {
+            let (p, q) = (Pack::from_fn(|k| a[k]), Pack::from_fn(|k| b[k]));
+            for k in 0..LANES {
+                prop_assert_eq!((p + q).lane(k), a[k] + b[k]);
+                prop_assert_eq!((p - q).lane(k), a[k] - b[k]);
+                prop_assert_eq!((p * q).lane(k), a[k] * b[k]);
+                prop_assert_eq!(p.square().lane(k), a[k].square());
+                prop_assert_eq!(p.sqrt().lane(k), a[k].sqrt());
+                prop_assert_eq!(p.scale(b[0]).lane(k), a[k] * b[0]);
+            }
+        }
+
+        #[test]
+        fn the_mean_value_form_encloses(x in -3.0..3.0f64, r in 0.0..1.0f64, t in -1.0..1.0f64) {
+            let f = |x: f64| x * x * x;
+            let slope = Pack::constant(Interval::new(x - r, x + r).square() * Interval::point(3.0));
+            let box_value = Pack::constant(Interval::point(x) * Interval::point(x).square());
+            let range = box_value.mean_value(&[slope], &[r * (1.0 + 1e-15)]);
+            let y = f(x + t * r);
+            prop_assert!(range.lane(3).lo <= y + 1e-12 && y - 1e-12 <= range.lane(3).hi);
+        }
+    }
+}

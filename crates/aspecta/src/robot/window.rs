@@ -1,0 +1,108 @@
+//! The part of the pose space that holds the whole workspace.
+
+use super::{Actuator, Leg, Platform, Robot};
+use crate::num::Interval;
+use serde::{Deserialize, Serialize};
+
+/// A box of poses that holds every pose the robot can take, as proved from its link lengths, cut by
+/// the window the user may have set.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Window {
+    /// Range of each coordinate; (−π, π) rounded outward for a full turn.
+    pub ranges: Vec<(f64, f64)>,
+    /// Which coordinates close up on themselves (a full turn).
+    pub glued: Vec<bool>,
+}
+
+/// A coordinate that nothing bounds.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "robot `{robot}`: nothing bounds the coordinate `{coordinate}`; give limits to the actuators of the \
+     prismatic legs or struts, or a range for `{coordinate}` in the [window] table"
+)]
+pub struct Unbounded {
+    /// The robot's name.
+    pub robot: String,
+    /// The coordinate.
+    pub coordinate: &'static str,
+}
+
+impl Robot {
+    /// A box that holds the workspace W.
+    ///
+    /// A leg keeps C within a ball about each place its actuator can put the rod's end (crank + rod
+    /// about the anchor, the rod about the slider's segment, the longest strut), and the platform's
+    /// origin within ‖c_i‖ more; the box is the common part over the legs.
+    ///
+    /// # Errors
+    /// [`Unbounded`] if some coordinate has no bound.
+    pub fn workspace_window(&self) -> Result<Window, Unbounded> {
+        let coordinates = self.platform.coordinates();
+        let mut window = Window { ranges: Vec::new(), glued: Vec::new() };
+        for (k, c) in coordinates.iter().enumerate() {
+            let natural = if c.angle { angle_range(c.periodic) } else { self.length_reach(k) };
+            let range = match self.window[k] {
+                Some((lo, hi)) if !c.angle => (natural.0.max(lo), natural.1.min(hi)),
+                Some(range) => range,
+                None => natural,
+            };
+            if !(range.0.is_finite() && range.1.is_finite()) {
+                return Err(Unbounded { robot: self.name.clone(), coordinate: c.name });
+            }
+            window.ranges.push(range);
+            window.glued.push(c.periodic && self.window[k].is_none());
+        }
+        Ok(window)
+    }
+
+    /// Bounds of translation `k` from all legs.
+    fn length_reach(&self, k: usize) -> (f64, f64) {
+        let all = Interval::ENTIRE;
+        let range = self.legs.iter().fold(all, |r, leg| {
+            let (lo, hi) = leg.reach(k, self.platform);
+            Interval { lo: r.lo.max(lo), hi: r.hi.min(hi) }
+        });
+        (range.lo, range.hi)
+    }
+}
+
+fn angle_range(full_turn: bool) -> (f64, f64) {
+    let half = if full_turn { Interval::PI } else { Interval::PI * Interval::point(0.5) };
+    (-half.hi, half.hi)
+}
+
+impl Leg {
+    /// Bounds of the platform's coordinate `k` that this leg alone proves.
+    fn reach(&self, k: usize, platform: Platform) -> (f64, f64) {
+        let (centre, radius) = match self.actuator {
+            Actuator::Revolute { crank, rod } => (self.anchor[k], crank + rod),
+            Actuator::Prismatic { rod } => {
+                let along = self.frame[0][k];
+                match self.length_range() {
+                    _ if along == Interval::point(0.0) => (self.anchor[k], rod),
+                    Some((min, max)) => (self.anchor[k] + min.hull(max) * along, rod),
+                    None => return (f64::NEG_INFINITY, f64::INFINITY),
+                }
+            }
+            Actuator::Strut => match self.length_range() {
+                Some((_, max)) => (self.anchor[k], max),
+                None => return (f64::NEG_INFINITY, f64::INFINITY),
+            },
+            Actuator::Spherical { .. } => return (f64::NEG_INFINITY, f64::INFINITY),
+        };
+        let offset = if turns(platform) { self.arm_about_origin() } else { self.attachment[k] };
+        let c = centre - offset;
+        ((c - radius).lo, (c + radius).hi)
+    }
+
+    /// [−‖c‖, ‖c‖]: any component of the attachment, however the platform is turned.
+    fn arm_about_origin(&self) -> Interval {
+        use crate::num::{Scalar, dot};
+        let arm = dot(&self.attachment, &self.attachment).sqrt().hi;
+        Interval::new(-arm, arm)
+    }
+}
+
+fn turns(platform: Platform) -> bool {
+    matches!(platform, Platform::PlaneBody | Platform::FreeBody)
+}
