@@ -7,6 +7,7 @@
 
 pub mod aspect;
 pub mod kinematics;
+pub mod motion;
 pub mod num;
 pub mod paving;
 pub mod robot;

@@ -1,5 +1,6 @@
 //! The numbers of the paper.
 
+use aspecta::motion::{ProfilePoint, check_path};
 use aspecta::robot::{Leg, Platform, Robot};
 
 fn five_bar() -> Robot {
@@ -51,4 +52,26 @@ fn table_4_ends_have_the_same_joint_vector() {
     for (a, b) in q1.iter().zip(&q3) {
         assert!((a - b).abs().to_degrees() < 0.02, "{q1:?} {q3:?}");
     }
+}
+
+/// Section 4.1.5: along Table 4's path no determinant vanishes, proved between the samples too.
+#[test]
+fn table_4_path_meets_no_singularity() {
+    let path = [vec![-15.468, 0.781, 0.073], vec![-15.468, -7.091, 0.500], vec![-9.902, -7.091, 1.081]];
+    let check = check_path(&three_rrr(), &path, "+++".parse().unwrap()).unwrap();
+    assert_eq!(check.singularity_free, Some(true));
+    assert!(check.obstacle.is_none() && check.min_abs_det_a.value > 1.0, "{:?}", check.min_abs_det_a);
+    // Figure 11: nothing changes sign.
+    let signs = |f: &dyn Fn(&ProfilePoint) -> f64| check.profile.iter().all(|p| f(p) > 0.0);
+    assert!((0..3).all(|j| signs(&|p| p.b[j])) && (signs(&|p| p.det_a) || signs(&|p| -p.det_a)));
+}
+
+/// Straight up, leg 1 stretches out before (4, 14): a serial singularity, then out of reach.
+#[test]
+fn a_path_through_a_singularity_is_refused_with_its_place() {
+    let path = [vec![4.0, 7.0], vec![4.0, 14.0]];
+    let check = check_path(&five_bar(), &path, "++".parse().unwrap()).unwrap();
+    assert_eq!(check.singularity_free, Some(false));
+    let obstacle = check.obstacle.unwrap();
+    assert!(obstacle.proved && obstacle.segment == 1 && obstacle.t.0 > 0.0);
 }

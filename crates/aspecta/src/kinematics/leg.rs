@@ -3,7 +3,7 @@
 //! Everything here is in the leg's own frame u, v, w, with d = C − A = (α, β, γ) (γ is absent in the
 //! plane) and for any scalar.
 
-use crate::num::{Interval, Scalar};
+use crate::num::{Interval, Scalar, each};
 use crate::robot::Actuator;
 
 /// f(d, q), the left side of the leg equation f = 0. Lengths squared, except for spherical legs (a cosine).
@@ -103,7 +103,7 @@ pub fn eliminate<T: Scalar, const D: usize>(actuator: &Actuator, d: &[T; D]) -> 
             Closure { reach: T::constant(rod.square()) - across, weight: one, fixed, swing }
         }
         Actuator::Strut => {
-            let fixed = d.map(|x| x.scale(two));
+            let fixed = each!(|k| d[k].scale(two));
             Closure { reach: sum_of_squares(d), weight: one, fixed, swing: [zero; D] }
         }
         Actuator::Spherical { proximal: (cos_p, sin_p), distal_cos } => {

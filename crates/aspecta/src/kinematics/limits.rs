@@ -2,7 +2,7 @@
 
 use super::leg::{Closure, Drive, drive, sum_of_squares};
 use super::placement::{Placement, into_frame};
-use crate::num::{Interval, Scalar, dot, dot_constant};
+use crate::num::{Interval, Scalar, dot, dot_constant, each};
 use crate::robot::{Actuator, Leg, Limit};
 
 /// A leg at a pose, with q eliminated: what a limit looks at.
@@ -79,7 +79,7 @@ fn bend<T: Scalar, const D: usize>(at: &LegAt<'_, T, D>) -> (T, Interval) {
 /// The rod's direction in the leg's frame, times [`rod_length`].
 #[inline(always)]
 fn rod_direction<T: Scalar, const D: usize>(at: &LegAt<'_, T, D>, sh: T) -> [T; D] {
-    std::array::from_fn(|k| at.closure.fixed[k] + sh * at.closure.swing[k])
+    each!(|k| at.closure.fixed[k] + sh * at.closure.swing[k])
 }
 
 /// ‖weight · ∂f/∂d‖ = 2 M weight (2 q for a strut).

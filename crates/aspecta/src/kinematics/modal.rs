@@ -7,8 +7,8 @@
 use super::WorkingMode;
 use super::leg::{Closure, eliminate};
 use super::limits::{LegAt, margin};
-use super::placement::{Placement, determinant, out_of_frame, wrench};
-use crate::num::Scalar;
+use super::placement::{Placement, determinant, minor, out_of_frame, wrench};
+use crate::num::{Scalar, each};
 use crate::robot::Robot;
 
 /// Every leg at one pose (or box of poses), with q eliminated; h not yet chosen.
@@ -17,12 +17,15 @@ pub fn closures<T: Scalar, const D: usize, const N: usize>(
     robot: &Robot,
     placement: &Placement<T, D>,
 ) -> [LegClosure<T, D>; N] {
-    std::array::from_fn(|j| {
-        let leg = &robot.legs[j];
-        let arm = placement.arm(leg);
-        let span = placement.span(leg, &arm);
-        LegClosure { arm, span, closure: eliminate(&leg.actuator, &span) }
-    })
+    let zero = [T::zero(); D];
+    let open = Closure { reach: T::zero(), weight: T::zero(), fixed: zero, swing: zero };
+    let mut legs = [LegClosure { arm: zero, span: zero, closure: open }; N];
+    for (at, leg) in legs.iter_mut().zip(&robot.legs) {
+        at.arm = placement.arm(leg);
+        at.span = placement.span(leg, &at.arm);
+        at.closure = eliminate(&leg.actuator, &at.span);
+    }
+    legs
 }
 
 /// One leg at one pose.
@@ -53,10 +56,12 @@ impl<T: Scalar, const N: usize> ModalRows<T, N> {
         for (j, at) in legs.iter().enumerate() {
             let leg = &robot.legs[j];
             let fixed = out_of_frame(leg, &at.closure.fixed);
-            rows.fixed[j] = wrench::<T, D, N>(robot.platform, &fixed, &at.arm).map(T::tightened);
+            let fixed: [T; N] = wrench(robot.platform, &fixed, &at.arm);
+            rows.fixed[j] = each!(|k| fixed[k].tightened());
             if leg.actuator.postures() == 2 {
-                let swing = out_of_frame(leg, &at.closure.swing.map(|x| x * h[j]));
-                rows.swing[j] = wrench::<T, D, N>(robot.platform, &swing, &at.arm).map(T::tightened);
+                let swing = out_of_frame(leg, &each!(|k| at.closure.swing[k] * h[j]));
+                let swing: [T; N] = wrench(robot.platform, &swing, &at.arm);
+                rows.swing[j] = each!(|k| swing[k].tightened());
             }
         }
         rows
@@ -66,7 +71,7 @@ impl<T: Scalar, const N: usize> ModalRows<T, N> {
     #[inline(always)]
     pub fn row(&self, j: usize, sign: i8) -> [T; N] {
         let (a, b) = (&self.fixed[j], &self.swing[j]);
-        if sign > 0 { std::array::from_fn(|k| a[k] + b[k]) } else { std::array::from_fn(|k| a[k] - b[k]) }
+        if sign > 0 { each!(|k| a[k] + b[k]) } else { each!(|k| a[k] - b[k]) }
     }
 
     /// [`ModalRows::det`] for each mode wanted, with its index; modes that differ in the first leg only share
@@ -79,17 +84,15 @@ impl<T: Scalar, const N: usize> ModalRows<T, N> {
             return;
         }
         for (s, t) in [(1, 1), (1, -1), (-1, 1), (-1, -1)] {
-            let mut minors: Option<[T; 3]> = None;
-            for m in
-                (0..modes.len()).filter(|&m| is_wanted(m) && modes[m].sign(1) == s && modes[m].sign(2) == t)
-            {
-                let minors = minors.get_or_insert_with(|| {
-                    let (b, c) = (self.row(1, s), self.row(2, t));
-                    let minor = |i: usize, j: usize| (b[i] * c[j] - b[j] * c[i]).tightened();
-                    [minor(1, 2), minor(2, 0), minor(0, 1)]
-                });
+            let of_pair = |m: &usize| is_wanted(*m) && modes[*m].sign(1) == s && modes[*m].sign(2) == t;
+            if !(0..modes.len()).any(|m| of_pair(&m)) {
+                continue;
+            }
+            let (b, c) = (self.row(1, s), self.row(2, t));
+            let shared = [minor(&b, &c, 1, 2), minor(&b, &c, 2, 0), minor(&b, &c, 0, 1)];
+            for m in (0..modes.len()).filter(of_pair) {
                 let a = self.row(0, modes[m].sign(0));
-                visit(m, a[0] * minors[0] + a[1] * minors[1] + a[2] * minors[2]);
+                visit(m, a[0] * shared[0] + a[1] * shared[1] + a[2] * shared[2]);
             }
         }
     }
@@ -97,7 +100,11 @@ impl<T: Scalar, const N: usize> ModalRows<T, N> {
     /// det A in `mode`, times the product of the weights: the sign is that of det A.
     #[inline(always)]
     pub fn det(&self, mode: WorkingMode) -> T {
-        determinant::<T, N>(&std::array::from_fn(|j| self.row(j, mode.sign(j))))
+        let mut rows = [[T::zero(); N]; N];
+        for j in 0..N {
+            rows[j] = self.row(j, mode.sign(j));
+        }
+        determinant(&rows)
     }
 }
 
@@ -115,7 +122,7 @@ pub fn constraints<T: Scalar, const D: usize, const N: usize>(
             return;
         }
     }
-    let heights: [T; N] = std::array::from_fn(|j| legs[j].closure.reach.sqrt());
+    let heights: [T; N] = each!(|j| legs[j].closure.reach.sqrt());
     for (j, at) in legs.iter().enumerate() {
         let leg = &robot.legs[j];
         let sh = if mode.sign(j) > 0 { heights[j] } else { -heights[j] };

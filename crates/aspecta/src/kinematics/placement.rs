@@ -1,6 +1,6 @@
 //! Where the platform puts the attachment points, and how a force at one acts on the platform.
 
-use crate::num::{Jet, Scalar, dot_constant};
+use crate::num::{Jet, Scalar, dot_constant, each};
 use crate::robot::{Leg, Platform};
 
 /// The platform's frame in the base: C_i = origin + rotation · c_i.
@@ -15,7 +15,7 @@ impl<T: Scalar, const D: usize> Placement<T, D> {
     #[inline(always)]
     pub fn new(platform: Platform, x: &[T], turn: impl Fn(usize) -> (T, T)) -> Self {
         let zero = T::zero();
-        let origin = |n: usize| std::array::from_fn(|k| if k < n { x[k] } else { zero });
+        let origin = |n: usize| each!(|k| if k < n { x[k] } else { zero });
         match platform {
             Platform::PlanePoint => Self { origin: origin(2), rotation: None },
             Platform::TranslatingBody => Self { origin: origin(3), rotation: None },
@@ -46,15 +46,15 @@ impl<T: Scalar, const D: usize> Placement<T, D> {
     #[inline(always)]
     pub fn turned(&self, v: &[crate::num::Interval; 3]) -> [T; D] {
         match &self.rotation {
-            None => std::array::from_fn(|k| T::constant(v[k])),
-            Some(r) => std::array::from_fn(|k| dot_constant(&v[..D], &r[k])),
+            None => each!(|k| T::constant(v[k])),
+            Some(r) => each!(|k| dot_constant(&v[..D], &r[k])),
         }
     }
 
     /// d = C − A in the leg's own frame, `arm` being the leg's arm.
     #[inline(always)]
     pub fn span(&self, leg: &Leg, arm: &[T; D]) -> [T; D] {
-        let d: [T; D] = std::array::from_fn(|k| {
+        let d: [T; D] = each!(|k| {
             // Constants first: for a platform that does not turn, arm and anchor are both constants.
             match self.rotation {
                 None => self.origin[k] - T::constant(leg.anchor[k] - leg.attachment[k]),
@@ -82,15 +82,15 @@ fn spatial<T: Scalar, const D: usize>(turn: impl Fn(usize) -> (T, T), first: usi
 /// A base vector in the leg's frame.
 #[inline(always)]
 pub fn into_frame<T: Scalar, const D: usize>(leg: &Leg, v: &[T; D]) -> [T; D] {
-    std::array::from_fn(|k| dot_constant(&leg.frame[k][..D], v))
+    each!(|k| dot_constant(&leg.frame[k][..D], v))
 }
 
 /// A vector of the leg's frame in the base.
 #[inline(always)]
 pub fn out_of_frame<T: Scalar, const D: usize>(leg: &Leg, v: &[T; D]) -> [T; D] {
-    std::array::from_fn(|k| {
-        let column: [_; D] = std::array::from_fn(|i| leg.frame[i][k]);
-        dot_constant(&column, v)
+    each!(|k| {
+        let column = [leg.frame[0][k], leg.frame[1][k], leg.frame[2][k]];
+        dot_constant(&column[..D], v)
     })
 }
 
@@ -105,20 +105,23 @@ pub fn wrench<T: Scalar, const D: usize, const N: usize>(
     g: &[T; D],
     arm: &[T; D],
 ) -> [T; N] {
-    let moment = |i: usize, j: usize| arm[i] * g[j] - arm[j] * g[i];
     let mut row = [T::zero(); N];
     match platform {
         Platform::PlanePoint | Platform::TranslatingBody => row[..D].copy_from_slice(g),
         Platform::PlaneBody => {
             (row[0], row[1]) = (g[0], g[1]);
-            row[2] = moment(0, 1);
+            row[2] = minor(arm, g, 0, 1);
         }
         Platform::TurningBody => {
-            (row[0], row[1], row[2]) = (moment(1, D - 1), moment(D - 1, 0), moment(0, 1));
+            row[0] = minor(arm, g, 1, D - 1);
+            row[1] = minor(arm, g, D - 1, 0);
+            row[2] = minor(arm, g, 0, 1);
         }
         Platform::FreeBody => {
             row[..D].copy_from_slice(g);
-            (row[N - 3], row[N - 2], row[N - 1]) = (moment(1, D - 1), moment(D - 1, 0), moment(0, 1));
+            row[N - 3] = minor(arm, g, 1, D - 1);
+            row[N - 2] = minor(arm, g, D - 1, 0);
+            row[N - 1] = minor(arm, g, 0, 1);
         }
     }
     row
@@ -137,12 +140,20 @@ pub fn leg_gradient<T: Scalar, const D: usize>(leg: &Leg, d: &[T; D], q: T) -> (
 /// The determinant, by expansion along the rows with shared minors: no division, so it holds for enclosures.
 #[inline(always)]
 pub fn determinant<T: Scalar, const N: usize>(m: &[[T; N]; N]) -> T {
-    let minor = |r: usize, i: usize, j: usize| m[r][i] * m[r + 1][j] - m[r][j] * m[r + 1][i];
     match N {
-        2 => minor(0, 0, 1),
-        3 => m[0][0] * minor(1, 1, 2) - m[0][1] * minor(1, 0, 2) + m[0][2] * minor(1, 0, 1),
+        2 => minor(&m[0], &m[1], 0, 1),
+        3 => {
+            let (b, c) = (&m[1], &m[2]);
+            m[0][0] * minor(b, c, 1, 2) + m[0][1] * minor(b, c, 2, 0) + m[0][2] * minor(b, c, 0, 1)
+        }
         _ => expand(m),
     }
+}
+
+/// aᵢ bⱼ − aⱼ bᵢ.
+#[inline(always)]
+pub fn minor<T: Scalar, const N: usize>(a: &[T; N], b: &[T; N], i: usize, j: usize) -> T {
+    a[i] * b[j] - a[j] * b[i]
 }
 
 /// The same for N up to 6: minors of the last rows, by sets of columns.

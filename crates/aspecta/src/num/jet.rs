@@ -1,6 +1,6 @@
 //! Forward-mode derivatives.
 
-use super::{Interval, Scalar};
+use super::{Interval, Scalar, each};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A value and its gradient with respect to `N` variables.
@@ -33,7 +33,7 @@ impl<T: Scalar, const N: usize> Jet<T, N> {
     /// A function of `self` with the given value and slope: the chain rule.
     #[inline(always)]
     pub fn chain(self, value: T, slope: T) -> Self {
-        Self { value, gradient: self.gradient.map(|g| g * slope) }
+        Self { value, gradient: each!(|k| self.gradient[k] * slope) }
     }
 }
 
@@ -58,7 +58,7 @@ impl<T: Scalar, const N: usize> Scalar for Jet<T, N> {
     }
     #[inline(always)]
     fn scale(self, c: Interval) -> Self {
-        Self { value: self.value.scale(c), gradient: self.gradient.map(|g| g.scale(c)) }
+        Self { value: self.value.scale(c), gradient: each!(|k| self.gradient[k].scale(c)) }
     }
 }
 
@@ -66,7 +66,7 @@ impl<T: Scalar, const N: usize> Neg for Jet<T, N> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Self { value: -self.value, gradient: self.gradient.map(|g| -g) }
+        Self { value: -self.value, gradient: each!(|k| -self.gradient[k]) }
     }
 }
 
@@ -74,10 +74,7 @@ impl<T: Scalar, const N: usize> Add for Jet<T, N> {
     type Output = Self;
     #[inline(always)]
     fn add(self, b: Self) -> Self {
-        Self {
-            value: self.value + b.value,
-            gradient: std::array::from_fn(|k| self.gradient[k] + b.gradient[k]),
-        }
+        Self { value: self.value + b.value, gradient: each!(|k| self.gradient[k] + b.gradient[k]) }
     }
 }
 
@@ -85,10 +82,7 @@ impl<T: Scalar, const N: usize> Sub for Jet<T, N> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, b: Self) -> Self {
-        Self {
-            value: self.value - b.value,
-            gradient: std::array::from_fn(|k| self.gradient[k] - b.gradient[k]),
-        }
+        Self { value: self.value - b.value, gradient: each!(|k| self.gradient[k] - b.gradient[k]) }
     }
 }
 
@@ -98,7 +92,7 @@ impl<T: Scalar, const N: usize> Mul for Jet<T, N> {
     fn mul(self, b: Self) -> Self {
         Self {
             value: self.value * b.value,
-            gradient: std::array::from_fn(|k| self.gradient[k] * b.value + self.value * b.gradient[k]),
+            gradient: each!(|k| self.gradient[k] * b.value + self.value * b.gradient[k]),
         }
     }
 }
@@ -108,10 +102,7 @@ impl<T: Scalar, const N: usize> Div for Jet<T, N> {
     #[inline(always)]
     fn div(self, b: Self) -> Self {
         let value = self.value / b.value;
-        Self {
-            value,
-            gradient: std::array::from_fn(|k| (self.gradient[k] - value * b.gradient[k]) / b.value),
-        }
+        Self { value, gradient: each!(|k| (self.gradient[k] - value * b.gradient[k]) / b.value) }
     }
 }
 

@@ -80,6 +80,21 @@ impl Scalar for f64 {
     }
 }
 
+/// `each!(|k| e)`: the array [e(0), e(1), …], as long as its place wants it.
+///
+/// For the kernels. `std::array::from_fn` does the same, but the calls of its closure are not reliably
+/// inlined, and packs that pass through memory cost several times what they compute (`docs/performance.md`).
+macro_rules! each {
+    (|$k:ident| $entry:expr) => {{
+        let mut array = [$crate::num::Scalar::zero(); _];
+        for $k in 0..array.len() {
+            array[$k] = $entry;
+        }
+        array
+    }};
+}
+pub(crate) use each;
+
 /// Σ aₖ bₖ.
 #[inline(always)]
 pub fn dot<T: Scalar, const D: usize>(a: &[T; D], b: &[T; D]) -> T {

@@ -88,13 +88,21 @@ impl Pack {
     /// Lanes proved > 0.
     #[inline(always)]
     pub fn positive(&self) -> Mask {
-        self.lo.map(|x| x > 0.0)
+        let mut mask = [false; LANES];
+        for k in 0..LANES {
+            mask[k] = self.lo[k] > 0.0;
+        }
+        mask
     }
 
     /// Lanes proved < 0.
     #[inline(always)]
     pub fn negative(&self) -> Mask {
-        self.hi.map(|x| x < 0.0)
+        let mut mask = [false; LANES];
+        for k in 0..LANES {
+            mask[k] = self.hi[k] < 0.0;
+        }
+        mask
     }
 
     /// [−m, m] with m the greatest magnitude, lane by lane.
@@ -158,7 +166,7 @@ impl Neg for Pack {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Self { lo: self.hi.map(|x| -x), hi: self.lo.map(|x| -x) }
+        Self::lanes(|k| (-self.hi[k], -self.lo[k]))
     }
 }
 

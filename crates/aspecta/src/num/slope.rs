@@ -1,6 +1,6 @@
 //! Slopes: enclosures of difference quotients about a centre.
 
-use super::{Interval, Pack, Scalar};
+use super::{Interval, Pack, Scalar, each};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// An enclosing scalar on which slopes can be built.
@@ -83,7 +83,7 @@ impl<T: Enclosure, const N: usize> Slope<T, N> {
     /// (φ(f(x)) − φ(f(c))) / (f(x) − f(c)).
     #[inline(always)]
     pub fn chain(self, range: T, centre: T, quotient: T) -> Self {
-        Self { range, centre, slope: self.slope.map(|s| s * quotient) }
+        Self { range, centre, slope: each!(|k| self.slope[k] * quotient) }
     }
 }
 
@@ -119,14 +119,17 @@ impl<T: Enclosure, const N: usize> Scalar for Slope<T, N> {
         Self {
             range: self.range.scale(c),
             centre: self.centre.scale(c),
-            slope: self.slope.map(|s| s.scale(c)),
+            slope: each!(|k| self.slope[k].scale(c)),
         }
     }
 
     /// The range cut by the centred form.
     #[inline(always)]
     fn tightened(self) -> Self {
-        let spread = self.slope[1..].iter().fold(self.slope[0].symmetric(), |sum, s| sum + s.symmetric());
+        let mut spread = self.slope[0].symmetric();
+        for k in 1..N {
+            spread = spread + self.slope[k].symmetric();
+        }
         Self { range: self.range.meet(self.centre + spread), ..self }
     }
 }
@@ -135,7 +138,7 @@ impl<T: Scalar, const N: usize> Neg for Slope<T, N> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Self { range: -self.range, centre: -self.centre, slope: self.slope.map(|s| -s) }
+        Self { range: -self.range, centre: -self.centre, slope: each!(|k| -self.slope[k]) }
     }
 }
 
@@ -146,7 +149,7 @@ impl<T: Scalar, const N: usize> Add for Slope<T, N> {
         Self {
             range: self.range + b.range,
             centre: self.centre + b.centre,
-            slope: std::array::from_fn(|k| self.slope[k] + b.slope[k]),
+            slope: each!(|k| self.slope[k] + b.slope[k]),
         }
     }
 }
@@ -158,7 +161,7 @@ impl<T: Scalar, const N: usize> Sub for Slope<T, N> {
         Self {
             range: self.range - b.range,
             centre: self.centre - b.centre,
-            slope: std::array::from_fn(|k| self.slope[k] - b.slope[k]),
+            slope: each!(|k| self.slope[k] - b.slope[k]),
         }
     }
 }
@@ -171,7 +174,7 @@ impl<T: Scalar, const N: usize> Mul for Slope<T, N> {
         Self {
             range: self.range * b.range,
             centre: self.centre * b.centre,
-            slope: std::array::from_fn(|k| self.slope[k] * b.centre + self.range * b.slope[k]),
+            slope: each!(|k| self.slope[k] * b.centre + self.range * b.slope[k]),
         }
     }
 }
@@ -185,7 +188,7 @@ impl<T: Scalar, const N: usize> Div for Slope<T, N> {
         Self {
             range: self.range / b.range,
             centre,
-            slope: std::array::from_fn(|k| (self.slope[k] - centre * b.slope[k]) / b.range),
+            slope: each!(|k| (self.slope[k] - centre * b.slope[k]) / b.range),
         }
     }
 }

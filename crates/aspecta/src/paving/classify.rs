@@ -5,7 +5,7 @@ use crate::kinematics::WorkingMode;
 use crate::kinematics::limits::{LegAt, margin};
 use crate::kinematics::modal::{LegClosure, ModalRows, closures};
 use crate::kinematics::placement::Placement;
-use crate::num::{Interval, LANES, Mask, Pack, Scalar, Slope};
+use crate::num::{Interval, LANES, Mask, Pack, Scalar, Slope, each};
 use crate::robot::{Robot, Window};
 
 /// One coordinate of the boxes of one level, for every index along it: computed once a level, so that no sine is
@@ -77,8 +77,7 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
             }
             f
         };
-        let x: [_; N] =
-            std::array::from_fn(|k| function(k, pack(k, |s| s.range), pack(k, |s| s.middle), None));
+        let x: [_; N] = each!(|k| function(k, pack(k, |s| s.range), pack(k, |s| s.middle), None));
         let placement = Placement::<Slope<Pack, M>, D>::new(self.robot.platform, &x, |k| {
             let (sin, cos) = (pack(k, |s| s.turn.0), pack(k, |s| s.turn.1));
             let (sin_c, cos_c) = (pack(k, |s| s.turn_middle.0), pack(k, |s| s.turn_middle.1));
@@ -111,7 +110,7 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
         if wanted == 0 {
             return;
         }
-        let h: [_; N] = std::array::from_fn(|j| legs[j].closure.reach.sqrt());
+        let h: [_; N] = each!(|j| legs[j].closure.reach.sqrt());
         let limits = self.limits(&legs, &h, placement);
         let rows = ModalRows::new(self.robot, &legs, &h);
         rows.dets(self.modes, wanted, |m, det| {
