@@ -6,9 +6,13 @@ mod working_mode;
 mod inverse;
 mod jacobian;
 pub mod limits;
+mod out_of_reach;
+mod singularity;
 
 pub use inverse::LegSolutions;
 pub use jacobian::Jacobians;
+pub use out_of_reach::OutOfReach;
+pub use singularity::{SINGULAR, Singularity, State};
 pub use working_mode::{NotAMode, WorkingMode};
 
 use serde::Serialize;
