@@ -7,15 +7,18 @@
 //! | `f64` | a number, to rounding: *numerical* |
 //! | [`Interval`] | bounds that hold the exact value: *certified* |
 //! | [`Pack`] | eight intervals at once, for eight sibling boxes of a paving |
-//! | [`Jet`] over any of these | the value and its gradient (forward mode) |
+//! | [`Slope`] over either | range, centre and slopes: the centred form, second-order tight |
+//! | [`Jet`] | the value and its gradient (forward mode) |
 
 mod interval;
 mod jet;
 mod pack;
+mod slope;
 
 pub use interval::Interval;
 pub use jet::Jet;
 pub use pack::{LANES, Mask, Pack};
+pub use slope::{Enclosure, Slope};
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -24,12 +27,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 /// Every operation on an enclosing scalar returns an enclosure of all results over all operands
 /// (the inclusion property), so a formula evaluated on enclosures encloses its exact range.
 pub trait Scalar:
-    Copy
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
-    + Neg<Output = Self>
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
     /// The constant `c`; a plain `f64` takes its midpoint.
     fn constant(c: Interval) -> Self;
@@ -43,7 +41,14 @@ pub trait Scalar:
     /// (sin, cos) of an angle in radians.
     fn sin_cos(self) -> (Self, Self);
 
+    /// The same number, enclosed as tightly as its own slopes allow; nothing to do for other scalars.
+    #[inline(always)]
+    fn tightened(self) -> Self {
+        self
+    }
+
     /// The constant zero.
+    #[inline(always)]
     fn zero() -> Self {
         Self::constant(Interval::point(0.0))
     }
