@@ -3,8 +3,10 @@
 use aspecta::robot::{Leg, Platform, Robot};
 
 fn five_bar() -> Robot {
-    let legs =
-        vec![Leg::revolute([0.0, 0.0], [0.0, 0.0], 8.0, 5.0), Leg::revolute([9.0, 0.0], [0.0, 0.0], 5.0, 8.0)];
+    let legs = vec![
+        Leg::revolute([0.0, 0.0], [0.0, 0.0], 8.0, 5.0),
+        Leg::revolute([9.0, 0.0], [0.0, 0.0], 5.0, 8.0),
+    ];
     Robot::new("five-bar", Platform::PlanePoint, legs).unwrap()
 }
 
@@ -29,7 +31,8 @@ fn table_1_signs_of_b() {
         let (t1, t2) = (s.q[0], s.q[1]);
         let b11 = 8.0 * t1.sin() * (x - 8.0 * t1.cos()) - 8.0 * t1.cos() * (y - 8.0 * t1.sin());
         let b22 = 5.0 * t2.sin() * (x - 5.0 * t2.cos() - 9.0) - 5.0 * t2.cos() * (y - 5.0 * t2.sin());
-        let det = (x - 8.0 * t1.cos()) * (y - 5.0 * t2.sin()) - (x - 5.0 * t2.cos() - 9.0) * (y - 8.0 * t1.sin());
+        let det =
+            (x - 8.0 * t1.cos()) * (y - 5.0 * t2.sin()) - (x - 5.0 * t2.cos() - 9.0) * (y - 8.0 * t1.sin());
         assert_eq!([b11 > 0.0, b22 > 0.0], [s.mode.sign(0) > 0, s.mode.sign(1) > 0]);
         assert!((s.det_a - 4.0 * det).abs() < 1e-9);
         assert!(s.residual < 1e-14 && s.certified);

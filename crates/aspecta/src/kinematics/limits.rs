@@ -86,9 +86,7 @@ fn rod_direction<T: Scalar, const D: usize>(at: &LegAt<'_, T, D>, sh: T) -> [T; 
 #[inline(always)]
 fn rod_length<T: Scalar, const D: usize>(at: &LegAt<'_, T, D>) -> T {
     match at.leg.actuator {
-        Actuator::Revolute { rod, .. } | Actuator::Prismatic { rod } => {
-            at.closure.weight.scale(rod + rod)
-        }
+        Actuator::Revolute { rod, .. } | Actuator::Prismatic { rod } => at.closure.weight.scale(rod + rod),
         _ => at.h + at.h,
     }
 }

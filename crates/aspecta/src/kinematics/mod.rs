@@ -1,11 +1,11 @@
 //! Inverse and direct geometric models, Jacobians and singularities (section 2 of the paper).
 
-pub mod leg;
-pub mod placement;
-mod working_mode;
 mod inverse;
 mod jacobian;
+pub mod leg;
 pub mod limits;
+pub mod placement;
+mod working_mode;
 
 pub use inverse::LegSolutions;
 pub use jacobian::Jacobians;
@@ -74,6 +74,8 @@ pub enum KinematicsError {
         value: f64,
     },
     /// The direct problem of this platform is not implemented.
-    #[error("the direct problem of `{0}` platforms is not available yet (it is for plane-point, plane-body and translating-body)")]
+    #[error(
+        "the direct problem of `{0}` platforms is not available yet (it is for plane-point, plane-body and translating-body)"
+    )]
     NoDirectModel(crate::robot::Platform),
 }

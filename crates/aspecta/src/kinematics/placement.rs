@@ -100,7 +100,11 @@ pub fn out_of_frame<T: Scalar, const D: usize>(leg: &Leg, v: &[T; D]) -> [T; D] 
 /// For spatial rotations the derivative is with respect to the angular velocity in the base frame, not
 /// to the rates of roll, pitch and yaw, so det A has no singularity of representation.
 #[inline(always)]
-pub fn wrench<T: Scalar, const D: usize, const N: usize>(platform: Platform, g: &[T; D], arm: &[T; D]) -> [T; N] {
+pub fn wrench<T: Scalar, const D: usize, const N: usize>(
+    platform: Platform,
+    g: &[T; D],
+    arm: &[T; D],
+) -> [T; N] {
     let moment = |i: usize, j: usize| arm[i] * g[j] - arm[j] * g[i];
     let mut row = [T::zero(); N];
     match platform {

@@ -24,12 +24,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 /// Every operation on an enclosing scalar returns an enclosure of all results over all operands
 /// (the inclusion property), so a formula evaluated on enclosures encloses its exact range.
 pub trait Scalar:
-    Copy
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
-    + Neg<Output = Self>
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
     /// The constant `c`; a plain `f64` takes its midpoint.
     fn constant(c: Interval) -> Self;

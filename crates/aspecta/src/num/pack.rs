@@ -128,9 +128,7 @@ impl Scalar for Pack {
 
     #[inline(always)]
     fn sqrt(self) -> Self {
-        Self::lanes(|k| {
-            (most(down(most(self.lo[k], 0.0).sqrt()), 0.0), up(most(self.hi[k], 0.0).sqrt()))
-        })
+        Self::lanes(|k| (most(down(most(self.lo[k], 0.0).sqrt()), 0.0), up(most(self.hi[k], 0.0).sqrt())))
     }
 
     fn sin_cos(self) -> (Self, Self) {

@@ -37,7 +37,9 @@ pub struct Robot {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RobotError {
     /// n legs for n degrees of freedom.
-    #[error("platform `{platform}` has {wanted} degrees of freedom and needs {wanted} legs, but {found} are given")]
+    #[error(
+        "platform `{platform}` has {wanted} degrees of freedom and needs {wanted} legs, but {found} are given"
+    )]
     LegCount {
         /// The platform.
         platform: Platform,

@@ -1,0 +1,8 @@
+//! Figures as standalone SVG: deterministic text, no external fonts or styles.
+//!
+//! What is *certified* in a figure is the colour of a cell (it lies in that aspect) and the white outside;
+//! grey cells are undecided. Singular curves, postures and Q-aspects are drawn in plain f64: *numerical*.
+
+pub mod axes;
+pub mod palette;
+pub mod svg;

@@ -1,0 +1,1 @@
+//! One standalone `report.html` and each of its figures as a file.
