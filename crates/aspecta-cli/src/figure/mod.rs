@@ -4,5 +4,11 @@
 //! grey cells are undecided. Singular curves, postures and Q-aspects are drawn in plain f64: *numerical*.
 
 pub mod axes;
+pub mod barrier;
+pub mod curves;
+pub mod level;
 pub mod palette;
+pub mod raster;
+pub mod robot;
+mod skeleton;
 pub mod svg;
