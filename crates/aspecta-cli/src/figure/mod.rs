@@ -6,9 +6,12 @@
 pub mod axes;
 pub mod barrier;
 pub mod curves;
+pub mod image;
 pub mod level;
+pub mod maps;
 pub mod palette;
 pub mod raster;
 pub mod robot;
 mod skeleton;
+pub mod survey;
 pub mod svg;
