@@ -5,8 +5,10 @@ use aspecta::robot::{Leg, Platform, Robot};
 use aspecta_cli::figure;
 
 fn five_bar() -> Robot {
-    let legs =
-        vec![Leg::revolute([0.0, 0.0], [0.0, 0.0], 8.0, 5.0), Leg::revolute([9.0, 0.0], [0.0, 0.0], 5.0, 8.0)];
+    let legs = vec![
+        Leg::revolute([0.0, 0.0], [0.0, 0.0], 8.0, 5.0),
+        Leg::revolute([9.0, 0.0], [0.0, 0.0], 5.0, 8.0),
+    ];
     Robot::new("five-bar", Platform::PlanePoint, legs).unwrap()
 }
 
@@ -59,7 +61,9 @@ fn classes(robot: &Robot, side: usize) -> (Vec<AspectClass>, Vec<Vec<Cell>>) {
     let mut all = Vec::new();
     for mode in robot.working_modes() {
         for det_a in [DetSign::Positive, DetSign::Negative] {
-            let at = |k: usize, i: usize| window.ranges[k].0 + (window.ranges[k].1 - window.ranges[k].0) * i as f64 / side as f64;
+            let at = |k: usize, i: usize| {
+                window.ranges[k].0 + (window.ranges[k].1 - window.ranges[k].0) * i as f64 / side as f64
+            };
             let inside = |i: usize, j: usize| {
                 let b = Barriers::at(robot, mode, &[at(0, i), at(1, j)]);
                 (b.det > 0.0) == (det_a == DetSign::Positive) && b.margins.iter().all(|m| m.1 > 0.0)
@@ -67,16 +71,38 @@ fn classes(robot: &Robot, side: usize) -> (Vec<AspectClass>, Vec<Vec<Cell>>) {
             let id = classes.len() + 1;
             let mut cells = Vec::new();
             for (i, j) in (0..side * side).map(|k| (k % side, k / side)) {
-                let n = [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)].iter().filter(|c| inside(c.0, c.1)).count();
+                let n = [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)]
+                    .iter()
+                    .filter(|c| inside(c.0, c.1))
+                    .count();
                 if n > 0 {
-                    cells.push(Cell { lo: [at(0, i), at(1, j), 0.0], hi: [at(0, i + 1), at(1, j + 1), 0.0], aspect: (n == 4).then_some(id) });
+                    cells.push(Cell {
+                        lo: [at(0, i), at(1, j), 0.0],
+                        hi: [at(0, i + 1), at(1, j + 1), 0.0],
+                        aspect: (n == 4).then_some(id),
+                    });
                 }
             }
             let c = cells.iter().find(|c| c.aspect.is_some()).unwrap();
             let pose = vec![0.5 * (c.lo[0] + c.hi[0]), 0.5 * (c.lo[1] + c.hi[1])];
             let q = robot.inverse_in(&pose, mode).unwrap().unwrap();
-            let aspect = Aspect { id, measure: 1.0, pieces: 1, sample: Sample { pose, q }, w_bounds: vec![], q_bounds: vec![(-3.0, 3.0); 2] };
-            classes.push(AspectClass { mode, det_a, low: 1, high: None, measure: 1.0, undecided: 0.0, aspects: vec![aspect] });
+            let aspect = Aspect {
+                id,
+                measure: 1.0,
+                pieces: 1,
+                sample: Sample { pose, q },
+                w_bounds: vec![],
+                q_bounds: vec![(-3.0, 3.0); 2],
+            };
+            classes.push(AspectClass {
+                mode,
+                det_a,
+                low: 1,
+                high: None,
+                measure: 1.0,
+                undecided: 0.0,
+                aspects: vec![aspect],
+            });
             all.push(cells);
         }
     }

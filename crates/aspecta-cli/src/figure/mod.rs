@@ -13,5 +13,6 @@ pub mod palette;
 pub mod raster;
 pub mod robot;
 mod skeleton;
+pub mod slices;
 pub mod survey;
 pub mod svg;
