@@ -5,6 +5,8 @@
 //! The theory is Chablat & Wenger, *Mechanism and Machine Theory* 36(6), 2001; "the paper" throughout.
 //! Data flows one way: [`robot`] → [`kinematics`] → `paving` → `aspect` → `motion`.
 
+pub mod aspect;
 pub mod kinematics;
 pub mod num;
+pub mod paving;
 pub mod robot;

@@ -1,8 +1,22 @@
 //! Working modes, generalized aspects and their certified counts (section 3 of the paper).
+//!
+//! | paper | here |
+//! |---|---|
+//! | Theorem 1 | [`LegReport`] |
+//! | Def. 5, parallel aspects | [`Analysis::parallel_aspects`] |
+//! | Def. 6, serial aspects | [`Analysis::serial_aspects`] |
+//! | Def. 7, working modes | [`crate::kinematics::WorkingMode`], [`ModeReport`] |
+//! | Def. 8, generalized aspects | [`Aspect`], [`AspectClass`] |
 
+mod analyze;
+mod ascent;
+mod components;
+mod earlier;
+mod project;
 mod result;
 
+pub use analyze::{AnalysisError, Options, analyze};
 pub use result::{
-    Analysis, Aspect, AspectClass, Cell, Count, DetSign, LegReport, ModeReport, OldAspects, OldAspectSet, Reachable,
-    Run, Sample, Stop,
+    Analysis, Aspect, AspectClass, Cell, Count, DetSign, EarlierAspects, EarlierDomain, FORMAT_VERSION,
+    LegReport, ModeReport, Place, Reachable, Run, Sample,
 };

@@ -1,6 +1,7 @@
 //! What an analysis returns: plain values that know the robot they came from.
 
 use crate::kinematics::WorkingMode;
+use crate::paving::{BoxOf, Paving, Stop};
 use crate::robot::{Robot, Window};
 use serde::Serialize;
 
@@ -28,14 +29,54 @@ pub struct Analysis {
     /// Table 2: one class per working mode and sign of det A, in the order of the modes, + before −.
     pub classes: Vec<AspectClass>,
     /// Definition 5 applied to this robot: what figures 6 and 7 show. Two entries, det A > 0 and < 0.
-    pub parallel_aspects: Vec<OldAspects>,
+    pub parallel_aspects: Vec<EarlierAspects>,
     /// Definition 6 applied to this robot: domains of constant sign of the B_jj, one entry a mode.
-    pub serial_aspects: Vec<OldAspects>,
+    pub serial_aspects: Vec<EarlierAspects>,
     /// The run itself.
     pub run: Run,
-    /// The cells and their labels.
+    /// The paving behind it.
     #[serde(skip)]
-    pub(crate) labels: super::Labels,
+    pub paving: Paving,
+    /// Per class, the boxes in which it ends and is not outside, in the order of node indices, with the
+    /// [`Aspect::id`] they lie in (0: undecided).
+    #[serde(skip)]
+    pub(crate) labels: Vec<Vec<(u32, u32)>>,
+}
+
+/// Where a pose is, as one class sees it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// In the aspect with this [`Aspect::id`] (certified).
+    Inside(usize),
+    /// In a cell where membership is undecided.
+    Undecided,
+    /// In none of the class's aspects (certified).
+    Outside,
+}
+
+impl Analysis {
+    /// The cells of class `class` (index into [`Analysis::classes`]) that are not outside it.
+    pub fn cells(&self, class: usize) -> Vec<Cell> {
+        let cell = |&(node, id): &(u32, u32)| {
+            let (lo, hi): BoxOf = self.paving.bounds(node);
+            Cell { lo, hi, aspect: (id > 0).then_some(id as usize) }
+        };
+        self.labels[class].iter().map(cell).collect()
+    }
+
+    /// Where `pose` is, as class `class` (index into [`Analysis::classes`]) sees it. A pose on the boundary of two
+    /// cells may get the answer of either.
+    pub fn locate(&self, class: usize, pose: &[f64]) -> Place {
+        let found = self.paving.find(&|node| node.of_classes(1 << class), pose).and_then(|(node, _)| {
+            let labels = &self.labels[class];
+            labels.binary_search_by_key(&node, |l| l.0).ok().map(|k| labels[k].1)
+        });
+        match found {
+            None => Place::Outside,
+            Some(0) => Place::Undecided,
+            Some(id) => Place::Inside(id as usize),
+        }
+    }
 }
 
 /// Proved bounds on a number of aspects.
@@ -58,6 +99,22 @@ pub enum DetSign {
     /// det A < 0.
     #[serde(rename = "-")]
     Negative,
+}
+
+impl DetSign {
+    /// +1 or −1.
+    pub fn factor(self) -> i8 {
+        match self {
+            Self::Positive => 1,
+            Self::Negative => -1,
+        }
+    }
+}
+
+impl std::fmt::Display for DetSign {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(if *self == Self::Positive { "+" } else { "-" })
+    }
 }
 
 /// Theorem 1 for one leg.
@@ -149,12 +206,12 @@ pub struct Sample {
 
 /// The aspects of Definition 5 or 6, which do not separate the solutions of this kind of robot.
 #[derive(Clone, Debug, Serialize)]
-pub struct OldAspects {
+pub struct EarlierAspects {
     /// `det A > 0`, `det A < 0`, or the signs of the B_jj.
     pub name: String,
     /// The domains found in the workspace, largest first (components of the inner cells; numerical at
     /// this resolution, not a certified count).
-    pub domains: Vec<OldAspectSet>,
+    pub domains: Vec<EarlierDomain>,
     /// Measure of the part of W that the next entry's domains cover too: > 0 shows that the definition does not
     /// separate the solutions.
     pub overlap: f64,
@@ -162,7 +219,7 @@ pub struct OldAspects {
 
 /// One domain of Definition 5 or 6.
 #[derive(Clone, Debug, Serialize)]
-pub struct OldAspectSet {
+pub struct EarlierDomain {
     /// Certified inner measure.
     pub measure: f64,
     /// A pose inside.
@@ -182,20 +239,6 @@ pub struct Run {
     pub stop: Stop,
     /// Wall-clock seconds.
     pub seconds: f64,
-}
-
-/// Why a run ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Stop {
-    /// The resolution asked for was reached.
-    Resolution,
-    /// The box budget was spent.
-    Boxes,
-    /// The time budget was spent.
-    Time,
-    /// Cancelled by the user.
-    Cancelled,
 }
 
 /// A cell of the paving as one class sees it.

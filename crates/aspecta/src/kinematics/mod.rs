@@ -4,7 +4,9 @@ mod inverse;
 mod jacobian;
 pub mod leg;
 pub mod limits;
+pub mod modal;
 pub mod placement;
+pub mod segment;
 mod working_mode;
 
 pub use inverse::LegSolutions;

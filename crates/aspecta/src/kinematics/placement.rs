@@ -134,26 +134,30 @@ pub fn leg_gradient<T: Scalar, const D: usize>(leg: &Leg, d: &[T; D], q: T) -> (
     (f.value, out_of_frame(leg, &local), f.gradient[3])
 }
 
-/// The determinant, by expansion along rows with shared minors: N 2^(N−1) products, no division, so it
-/// holds for enclosures.
+/// The determinant, by expansion along the rows with shared minors: no division, so it holds for enclosures.
+#[inline(always)]
 pub fn determinant<T: Scalar, const N: usize>(m: &[[T; N]; N]) -> T {
-    debug_assert!(N <= 6, "minors are tabulated for at most six columns");
-    // minors[set]: determinant of the last |set| rows in the columns of `set`.
+    let minor = |r: usize, i: usize, j: usize| m[r][i] * m[r + 1][j] - m[r][j] * m[r + 1][i];
+    match N {
+        2 => minor(0, 0, 1),
+        3 => m[0][0] * minor(1, 1, 2) - m[0][1] * minor(1, 0, 2) + m[0][2] * minor(1, 0, 1),
+        _ => expand(m),
+    }
+}
+
+/// The same for N up to 6: minors of the last rows, by sets of columns.
+fn expand<T: Scalar, const N: usize>(m: &[[T; N]; N]) -> T {
     let mut minors = [T::constant(crate::num::Interval::point(1.0)); 64];
     for set in 1usize..1 << N {
         let row = N - set.count_ones() as usize;
-        let mut sum: Option<T> = None;
+        let mut sum = T::zero();
         let mut plus = true;
         for k in (0..N).filter(|k| set >> k & 1 == 1) {
-            let term = if set == 1 << k { m[row][k] } else { m[row][k] * minors[set & !(1 << k)] };
-            sum = Some(match sum {
-                None => term,
-                Some(s) if plus => s + term,
-                Some(s) => s - term,
-            });
+            let term = m[row][k] * minors[set & !(1 << k)];
+            sum = if plus { sum + term } else { sum - term };
             plus = !plus;
         }
-        minors[set] = sum.unwrap_or_else(T::zero);
+        minors[set] = sum;
     }
     minors[(1 << N) - 1]
 }

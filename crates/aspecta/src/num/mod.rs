@@ -7,15 +7,18 @@
 //! | `f64` | a number, to rounding: *numerical* |
 //! | [`Interval`] | bounds that hold the exact value: *certified* |
 //! | [`Pack`] | eight intervals at once, for eight sibling boxes of a paving |
-//! | [`Jet`] over any of these | the value and its gradient (forward mode) |
+//! | [`Slope`] over either | range, centre and slopes: the centred form, second-order tight |
+//! | [`Jet`] | the value and its gradient (forward mode) |
 
 mod interval;
 mod jet;
 mod pack;
+mod slope;
 
 pub use interval::Interval;
 pub use jet::Jet;
 pub use pack::{LANES, Mask, Pack};
+pub use slope::{Enclosure, Slope};
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -38,7 +41,14 @@ pub trait Scalar:
     /// (sin, cos) of an angle in radians.
     fn sin_cos(self) -> (Self, Self);
 
+    /// The same number, enclosed as tightly as its own slopes allow; nothing to do for other scalars.
+    #[inline(always)]
+    fn tightened(self) -> Self {
+        self
+    }
+
     /// The constant zero.
+    #[inline(always)]
     fn zero() -> Self {
         Self::constant(Interval::point(0.0))
     }

@@ -97,17 +97,19 @@ impl Pack {
         self.hi.map(|x| x < 0.0)
     }
 
-    /// self + Σ gₖ·[−rₖ, rₖ]: the mean-value form about a centre where `self` is the value.
+    /// [−m, m] with m the greatest magnitude, lane by lane.
     #[inline(always)]
-    pub fn mean_value<const N: usize>(self, gradient: &[Self; N], radius: &[f64; N]) -> Self {
+    pub fn symmetric(self) -> Self {
         Self::lanes(|k| {
-            let mut reach = 0.0;
-            for n in 0..N {
-                let steepest = most(-gradient[n].lo[k], gradient[n].hi[k]);
-                reach = up(reach + up(steepest * radius[n]));
-            }
-            (down(self.lo[k] - reach), up(self.hi[k] + reach))
+            let m = most(-self.lo[k], self.hi[k]);
+            (-m, m)
         })
+    }
+
+    /// 1/x for lanes that are > 0; other lanes have no meaning and are masked away by the caller.
+    #[inline(always)]
+    pub fn positive_reciprocal(self) -> Self {
+        Self::lanes(|k| (down(1.0 / self.hi[k]), up(1.0 / self.lo[k])))
     }
 }
 
@@ -221,16 +223,6 @@ mod tests {
                 prop_assert_eq!(p.sqrt().lane(k), a[k].sqrt());
                 prop_assert_eq!(p.scale(b[0]).lane(k), a[k] * b[0]);
             }
-        }
-
-        #[test]
-        fn the_mean_value_form_encloses(x in -3.0..3.0f64, r in 0.0..1.0f64, t in -1.0..1.0f64) {
-            let f = |x: f64| x * x * x;
-            let slope = Pack::constant(Interval::new(x - r, x + r).square() * Interval::point(3.0));
-            let box_value = Pack::constant(Interval::point(x) * Interval::point(x).square());
-            let range = box_value.mean_value(&[slope], &[r * (1.0 + 1e-15)]);
-            let y = f(x + t * r);
-            prop_assert!(range.lane(3).lo <= y + 1e-12 && y - 1e-12 <= range.lane(3).hi);
         }
     }
 }

@@ -12,6 +12,8 @@ pub struct Window {
     pub ranges: Vec<(f64, f64)>,
     /// Which coordinates close up on themselves (a full turn).
     pub glued: Vec<bool>,
+    /// Which coordinates are angles (rad).
+    pub angles: Vec<bool>,
 }
 
 /// A coordinate that nothing bounds.
@@ -38,7 +40,7 @@ impl Robot {
     /// [`Unbounded`] if some coordinate has no bound.
     pub fn workspace_window(&self) -> Result<Window, Unbounded> {
         let coordinates = self.platform.coordinates();
-        let mut window = Window { ranges: Vec::new(), glued: Vec::new() };
+        let mut window = Window { ranges: Vec::new(), glued: Vec::new(), angles: Vec::new() };
         for (k, c) in coordinates.iter().enumerate() {
             let natural = if c.angle { angle_range(c.periodic) } else { self.length_reach(k) };
             let range = match self.window[k] {
@@ -51,6 +53,7 @@ impl Robot {
             }
             window.ranges.push(range);
             window.glued.push(c.periodic && self.window[k].is_none());
+            window.angles.push(c.angle);
         }
         Ok(window)
     }

@@ -1,0 +1,198 @@
+//! Merging pieces by certified ascent: from a small piece, climb U = log σ det A + Σ log h_j + Σ log c_k.
+//!
+//! U → −∞ at every boundary of S_{s,σ}, so a climb never leaves its aspect; each step is a segment proved by
+//! intervals to lie in S_{s,σ} ([`along`]). Pieces that a climb meets are one aspect with the piece it began in.
+
+use super::components::{Components, UnionFind};
+use crate::kinematics::modal::{Constraint, constraints};
+use crate::kinematics::placement::Placement;
+use crate::kinematics::segment::{Along, along};
+use crate::kinematics::{WorkingMode, for_platform};
+use crate::num::{Interval, Jet, Scalar};
+use crate::paving::{ClassSet, Control, Paving, Progress};
+use crate::robot::Robot;
+use nalgebra::{DMatrix, SMatrix, SVector};
+use rayon::prelude::*;
+
+/// Most steps of a climb.
+const STEPS: usize = 60;
+/// Most interval evaluations a step may take to be proved.
+const EFFORT: usize = 64;
+
+/// A class of aspects: a working mode and a sign of det A, with the bit it has in a paving.
+#[derive(Clone, Copy)]
+pub(super) struct Class {
+    pub mode: WorkingMode,
+    pub sign: i8,
+    pub bit: ClassSet,
+}
+
+/// Which pieces are proved to be one: sets of piece numbers.
+pub(super) fn merge(
+    robot: &Robot,
+    paving: &Paving,
+    class: Class,
+    components: &Components,
+    control: &Control<'_>,
+) -> UnionFind {
+    let pieces = &components.pieces;
+    // The largest piece of a component waits for the others.
+    let mut largest = std::collections::HashMap::new();
+    for (k, piece) in pieces.iter().enumerate() {
+        let best = largest.entry(piece.component).or_insert(k);
+        if piece.measure > pieces[*best].measure {
+            *best = k;
+        }
+    }
+    let climbers: Vec<usize> = (0..pieces.len()).filter(|&k| largest[&pieces[k].component] != k).collect();
+    let met: Vec<Vec<u32>> = climbers
+        .par_iter()
+        .map(|&k| {
+            if control.is_cancelled() {
+                return Vec::new();
+            }
+            let goal = largest[&pieces[k].component] as u32;
+            (control.progress)(Progress {
+                stage: "joining pieces",
+                done: k as u64,
+                total: pieces.len() as u64,
+            });
+            for_platform!(robot.platform, climb(robot, paving, class, components, k as u32, goal))
+        })
+        .collect();
+    let mut sets = UnionFind::new(pieces.len());
+    for (&k, others) in climbers.iter().zip(&met) {
+        for &other in others {
+            sets.union(k as u32, other);
+        }
+    }
+    sets
+}
+
+/// The pieces met on the climb from piece `from`, which ends at a maximum of U, at piece `goal`, or where no step can be
+/// proved any more.
+fn climb<const D: usize, const N: usize>(
+    robot: &Robot,
+    paving: &Paving,
+    class: Class,
+    components: &Components,
+    from: u32,
+    goal: u32,
+) -> Vec<u32> {
+    let mut met = Vec::new();
+    let start = paving.centre(components.pieces[from as usize].largest);
+    let mut x = SVector::<f64, N>::from_column_slice(&start);
+    let free: [bool; N] = std::array::from_fn(|k| paving.window.axes().contains(&k));
+    for _ in 0..STEPS {
+        let Some((height, direction)) = uphill::<D, N>(robot, class, &x, &free) else { break };
+        let Some(next) = step::<D, N>(robot, paving, class, &x, height, &direction) else { break };
+        x = next;
+        let here = paving.find(&|node| node.of_classes(class.bit), x.as_slice());
+        let piece = here.filter(|(_, surely)| *surely).and_then(|(node, _)| components.piece_at(node));
+        met.extend(piece.filter(|&piece| piece != from));
+        if piece == Some(goal) {
+            break;
+        }
+    }
+    met
+}
+
+/// The longest certified step along `direction`, halved up to 30 times, on which U grows.
+fn step<const D: usize, const N: usize>(
+    robot: &Robot,
+    paving: &Paving,
+    class: Class,
+    x: &SVector<f64, N>,
+    height: f64,
+    direction: &SVector<f64, N>,
+) -> Option<SVector<f64, N>> {
+    let mut length = 1.0;
+    for _ in 0..30 {
+        let next = x + direction * length;
+        let higher = potential::<f64, D, N>(robot, class, next.as_slice()).is_some_and(|u| u > height);
+        if higher
+            && paving.find(&|node| node.of_classes(class.bit), next.as_slice()).is_some()
+            && along(robot, class.mode, class.sign, x.as_slice(), next.as_slice(), EFFORT) == Along::Inside
+        {
+            return Some(next);
+        }
+        length *= 0.5;
+    }
+    None
+}
+
+/// U at x and a Newton direction, bent so that it leads uphill; `None` at a maximum or outside.
+fn uphill<const D: usize, const N: usize>(
+    robot: &Robot,
+    class: Class,
+    x: &SVector<f64, N>,
+    free: &[bool; N],
+) -> Option<(f64, SVector<f64, N>)> {
+    let variable = |k: usize| {
+        let inner = Jet::<f64, N>::variable(x[k], k);
+        Jet::<Jet<f64, N>, N>::variable(inner, k)
+    };
+    let jets: [_; N] = std::array::from_fn(variable);
+    let u = potential::<Jet<Jet<f64, N>, N>, D, N>(robot, class, &jets)?;
+    let mut gradient = SVector::<f64, N>::from_fn(|k, _| u.gradient[k].value);
+    let mut curvature = SMatrix::<f64, N, N>::from_fn(|i, j| -u.gradient[i].gradient[j]);
+    for k in (0..N).filter(|&k| !free[k]) {
+        gradient[k] = 0.0;
+        curvature.row_mut(k).fill(0.0);
+        curvature.column_mut(k).fill(0.0);
+        curvature[(k, k)] = 1.0;
+    }
+    // −∇²U made positive definite: eigenvalues by modulus, so that saddles are left, not sought.
+    // (nalgebra solves the eigenproblem of a generic fixed size only through its dynamic one.)
+    let eigen = DMatrix::from_column_slice(N, N, curvature.as_slice()).symmetric_eigen();
+    let scale = eigen.eigenvalues.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let mut direction = SVector::<f64, N>::zeros();
+    for k in 0..N {
+        let axis = SVector::<f64, N>::from_column_slice(eigen.eigenvectors.column(k).as_slice());
+        let value = eigen.eigenvalues[k].abs().max(1e-12 * scale);
+        direction += axis * (axis.dot(&gradient) / value);
+    }
+    let gain = direction.dot(&gradient);
+    (gain.is_finite() && gain > 1e-8).then_some((u.value.value, direction))
+}
+
+/// U at a pose, or `None` outside S_{s,σ}.
+fn potential<T: Logarithm, const D: usize, const N: usize>(
+    robot: &Robot,
+    class: Class,
+    x: &[T],
+) -> Option<T> {
+    let placement = Placement::<T, D>::at(robot.platform, x);
+    let mut sum = Some(T::zero());
+    constraints::<T, D, N>(robot, &placement, class.mode, |constraint, value| {
+        let value = if constraint == Constraint::Det && class.sign < 0 { -value } else { value };
+        let weight = if matches!(constraint, Constraint::Reach(_)) { 0.5 } else { 1.0 };
+        sum = sum.filter(|_| value.number() > 0.0).map(|s| s + value.ln().scale(Interval::point(weight)));
+        sum.is_some()
+    });
+    sum
+}
+
+/// Scalars with a logarithm; none of it is certified.
+trait Logarithm: Scalar {
+    fn ln(self) -> Self;
+    fn number(self) -> f64;
+}
+
+impl Logarithm for f64 {
+    fn ln(self) -> Self {
+        f64::ln(self)
+    }
+    fn number(self) -> f64 {
+        self
+    }
+}
+
+impl<T: Logarithm, const N: usize> Logarithm for Jet<T, N> {
+    fn ln(self) -> Self {
+        self.chain(self.value.ln(), T::constant(Interval::point(1.0)) / self.value)
+    }
+    fn number(self) -> f64 {
+        self.value.number()
+    }
+}

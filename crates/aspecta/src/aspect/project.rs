@@ -1,0 +1,108 @@
+//! Projections of an aspect: bounds of its W-aspect and of its Q-aspect.
+
+use crate::kinematics::leg::{Drive, drive};
+use crate::kinematics::modal::closures;
+use crate::kinematics::placement::Placement;
+use crate::kinematics::{WorkingMode, for_platform};
+use crate::num::{Interval, Scalar};
+use crate::paving::Paving;
+use crate::robot::Robot;
+
+/// The smallest range that holds all the intervals; on a circle of 2π, the complement of the widest gap
+/// (its upper end may lie beyond π), or (−π, π) if there is none.
+pub(super) fn hull(mut ranges: Vec<Interval>, circular: bool) -> (f64, f64) {
+    use std::f64::consts::{PI, TAU};
+    let whole = ranges.iter().fold(None, |h: Option<Interval>, &r| Some(h.map_or(r, |h| h.hull(r))));
+    let Some(whole) = whole else { return (0.0, 0.0) };
+    if !circular {
+        return (whole.lo, whole.hi);
+    }
+    ranges.sort_by(|a, b| a.lo.total_cmp(&b.lo));
+    let (mut covered, mut widest, mut after) = (ranges[0].hi, 0.0, ranges[0].lo);
+    for r in &ranges[1..] {
+        if r.lo - covered > widest {
+            (widest, after) = (r.lo - covered, r.lo);
+        }
+        covered = covered.max(r.hi);
+    }
+    // The gap across ±π.
+    if ranges[0].lo + TAU - covered > widest {
+        return (whole.lo, covered);
+    }
+    if widest <= 0.0 {
+        return (-PI, PI);
+    }
+    (after, after + TAU - widest)
+}
+
+/// Bounds, per pose coordinate, of the given boxes.
+pub(super) fn w_bounds(paving: &Paving, boxes: &[u32]) -> Vec<(f64, f64)> {
+    let axes = paving.window.axes();
+    let bound = |k: usize| match axes.iter().position(|&axis| axis == k) {
+        None => paving.window.ranges[k],
+        Some(a) => {
+            let range = |&node: &u32| {
+                let (lo, hi) = paving.bounds(node);
+                Interval::new(lo[a], hi[a])
+            };
+            hull(boxes.iter().map(range).collect(), paving.window.glued[k])
+        }
+    };
+    (0..paving.window.ranges.len()).map(bound).collect()
+}
+
+/// Bounds, per joint coordinate, of g_s over the given boxes, all inside mode `mode`.
+pub(super) fn q_bounds(robot: &Robot, paving: &Paving, mode: WorkingMode, boxes: &[u32]) -> Vec<(f64, f64)> {
+    let mut ranges: Vec<Vec<Interval>> = vec![Vec::with_capacity(boxes.len()); robot.dof()];
+    for &node in boxes {
+        let q = for_platform!(robot.platform, joints_over(robot, paving, mode, node));
+        for (all, q) in ranges.iter_mut().zip(q) {
+            all.push(q);
+        }
+    }
+    ranges.into_iter().zip(&robot.legs).map(|(r, leg)| hull(r, leg.actuator.is_angle())).collect()
+}
+
+/// Enclosures of the joints over a box.
+fn joints_over<const D: usize, const N: usize>(
+    robot: &Robot,
+    paving: &Paving,
+    mode: WorkingMode,
+    node: u32,
+) -> Vec<Interval> {
+    let (lo, hi) = paving.bounds(node);
+    let mut x: [Interval; N] = std::array::from_fn(|k| Interval::point(paving.window.ranges[k].0));
+    for (a, k) in paving.window.axes().into_iter().enumerate() {
+        x[k] = Interval::new(lo[a], hi[a]);
+    }
+    let legs = closures::<Interval, D, N>(robot, &Placement::at(robot.platform, &x));
+    let joint = |j: usize| {
+        let h = legs[j].closure.reach.sqrt();
+        let sh = if mode.sign(j) > 0 { h } else { -h };
+        match drive(&robot.legs[j].actuator, &legs[j].span, &legs[j].closure, sh) {
+            Drive::Angle { cos, sin, .. } => {
+                Interval::angle(cos, sin).unwrap_or(Interval::PI.hull(-Interval::PI))
+            }
+            Drive::Length(q) => q,
+        }
+    };
+    (0..N).map(joint).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_circular_hull_leaves_out_the_widest_gap() {
+        let arcs = vec![Interval::new(-3.0, -2.5), Interval::new(2.0, 3.1)];
+        let (lo, hi) = hull(arcs.clone(), true);
+        assert_eq!(lo, 2.0);
+        assert!((hi - (std::f64::consts::TAU - 2.5)).abs() < 1e-12);
+        assert_eq!(hull(arcs, false), (-3.0, 3.1));
+        assert_eq!(
+            hull(vec![Interval::new(-3.2, 0.0), Interval::new(-0.1, 3.2)], true).1,
+            std::f64::consts::PI
+        );
+    }
+}

@@ -1,0 +1,141 @@
+//! The robot in a working mode: a configuration is a function of the pose alone.
+//!
+//! In mode s the inverse model is closed form, so reachabilities H_j, joint limits c_k and det A are functions
+//! of X. All working modes share everything but signs: row j of A, times the leg's weight > 0, is
+//! fixed_j + s_j swing_j, so that weighted det A is multi-affine in the signs.
+
+use super::WorkingMode;
+use super::leg::{Closure, eliminate};
+use super::limits::{LegAt, margin};
+use super::placement::{Placement, determinant, out_of_frame, wrench};
+use crate::num::Scalar;
+use crate::robot::Robot;
+
+/// Every leg at one pose (or box of poses), with q eliminated; h not yet chosen.
+#[inline(always)]
+pub fn closures<T: Scalar, const D: usize, const N: usize>(
+    robot: &Robot,
+    placement: &Placement<T, D>,
+) -> [LegClosure<T, D>; N] {
+    std::array::from_fn(|j| {
+        let leg = &robot.legs[j];
+        let arm = placement.arm(leg);
+        let span = placement.span(leg, &arm);
+        LegClosure { arm, span, closure: eliminate(&leg.actuator, &span) }
+    })
+}
+
+/// One leg at one pose.
+#[derive(Clone, Copy, Debug)]
+pub struct LegClosure<T, const D: usize> {
+    /// r = R c, base frame.
+    pub arm: [T; D],
+    /// d = C − A, leg frame.
+    pub span: [T; D],
+    /// The leg equation with q eliminated.
+    pub closure: Closure<T, D>,
+}
+
+/// The rows of weighted A for both postures of every leg.
+#[derive(Clone, Copy, Debug)]
+pub struct ModalRows<T, const N: usize> {
+    /// What the postures share.
+    pub fixed: [[T; N]; N],
+    /// What changes sign, times h.
+    pub swing: [[T; N]; N],
+}
+
+impl<T: Scalar, const N: usize> ModalRows<T, N> {
+    /// The rows, with h_j given.
+    #[inline(always)]
+    pub fn new<const D: usize>(robot: &Robot, legs: &[LegClosure<T, D>; N], h: &[T; N]) -> Self {
+        let mut rows = Self { fixed: [[T::zero(); N]; N], swing: [[T::zero(); N]; N] };
+        for (j, at) in legs.iter().enumerate() {
+            let leg = &robot.legs[j];
+            let fixed = out_of_frame(leg, &at.closure.fixed);
+            rows.fixed[j] = wrench::<T, D, N>(robot.platform, &fixed, &at.arm).map(T::tightened);
+            if leg.actuator.postures() == 2 {
+                let swing = out_of_frame(leg, &at.closure.swing.map(|x| x * h[j]));
+                rows.swing[j] = wrench::<T, D, N>(robot.platform, &swing, &at.arm).map(T::tightened);
+            }
+        }
+        rows
+    }
+
+    /// Row j of A in posture s = `sign`, times the leg's weight.
+    #[inline(always)]
+    pub fn row(&self, j: usize, sign: i8) -> [T; N] {
+        let (a, b) = (&self.fixed[j], &self.swing[j]);
+        if sign > 0 { std::array::from_fn(|k| a[k] + b[k]) } else { std::array::from_fn(|k| a[k] - b[k]) }
+    }
+
+    /// [`ModalRows::det`] for each mode wanted, with its index; modes that differ in the first leg only share
+    /// their minors.
+    #[inline(always)]
+    pub fn dets(&self, modes: &[WorkingMode], wanted: u8, mut visit: impl FnMut(usize, T)) {
+        let is_wanted = |m: usize| wanted >> m & 1 == 1;
+        if N != 3 {
+            (0..modes.len()).filter(|&m| is_wanted(m)).for_each(|m| visit(m, self.det(modes[m])));
+            return;
+        }
+        for (s, t) in [(1, 1), (1, -1), (-1, 1), (-1, -1)] {
+            let mut minors: Option<[T; 3]> = None;
+            for m in
+                (0..modes.len()).filter(|&m| is_wanted(m) && modes[m].sign(1) == s && modes[m].sign(2) == t)
+            {
+                let minors = minors.get_or_insert_with(|| {
+                    let (b, c) = (self.row(1, s), self.row(2, t));
+                    let minor = |i: usize, j: usize| (b[i] * c[j] - b[j] * c[i]).tightened();
+                    [minor(1, 2), minor(2, 0), minor(0, 1)]
+                });
+                let a = self.row(0, modes[m].sign(0));
+                visit(m, a[0] * minors[0] + a[1] * minors[1] + a[2] * minors[2]);
+            }
+        }
+    }
+
+    /// det A in `mode`, times the product of the weights: the sign is that of det A.
+    #[inline(always)]
+    pub fn det(&self, mode: WorkingMode) -> T {
+        determinant::<T, N>(&std::array::from_fn(|j| self.row(j, mode.sign(j))))
+    }
+}
+
+/// Visits the functions whose common positivity region is S_{s,σ} — H_j, c_k and det A (times the weights) —
+/// at one pose, in `mode`. `visit` returns whether to go on.
+pub fn constraints<T: Scalar, const D: usize, const N: usize>(
+    robot: &Robot,
+    placement: &Placement<T, D>,
+    mode: WorkingMode,
+    mut visit: impl FnMut(Constraint, T) -> bool,
+) {
+    let legs = closures::<T, D, N>(robot, placement);
+    for (j, at) in legs.iter().enumerate() {
+        if robot.legs[j].actuator.postures() == 2 && !visit(Constraint::Reach(j), at.closure.reach) {
+            return;
+        }
+    }
+    let heights: [T; N] = std::array::from_fn(|j| legs[j].closure.reach.sqrt());
+    for (j, at) in legs.iter().enumerate() {
+        let leg = &robot.legs[j];
+        let sh = if mode.sign(j) > 0 { heights[j] } else { -heights[j] };
+        let at = LegAt { leg, span: at.span, closure: at.closure, h: heights[j] };
+        for (k, limit) in leg.limits.iter().enumerate() {
+            if !visit(Constraint::Limit(j, k), margin(limit, &at, sh, placement)) {
+                return;
+            }
+        }
+    }
+    visit(Constraint::Det, ModalRows::<T, N>::new(robot, &legs, &heights).det(mode));
+}
+
+/// One of the functions that bound an aspect.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+pub enum Constraint {
+    /// H_j of leg j (from 0): serial singularity.
+    Reach(usize),
+    /// Limit k of leg j (from 0).
+    Limit(usize, usize),
+    /// det A: parallel singularity.
+    Det,
+}

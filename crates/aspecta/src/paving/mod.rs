@@ -1,0 +1,10 @@
+//! Certified adaptive paving of the workspace: one tree of boxes, every working mode in one pass.
+
+mod budget;
+mod classify;
+mod refine;
+mod touch;
+mod tree;
+
+pub use budget::{Budget, Control, MAX_BOXES, MAX_DEPTH, Progress, Stop};
+pub use tree::{BoxOf, ClassSet, Mark, Node, Paving};

@@ -1,0 +1,199 @@
+//! The tree of boxes.
+
+use crate::kinematics::WorkingMode;
+use crate::robot::Window;
+
+/// A set of classes, one bit each: bit 2m for mode m and det A > 0, bit 2m + 1 for mode m and det A < 0.
+pub type ClassSet = u16;
+
+/// A box: cell `corner` of the grid window / 2^depth.
+///
+/// A class is *inside* (the closed box lies in S_{s,σ}, proved), *undecided*, or neither: outside
+/// (the closed box and S_{s,σ} are disjoint, proved). What a box proves its children inherit.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Node {
+    /// Index of the first of its 2^M children, which lie next to each other; 0 for a leaf.
+    pub first_child: u32,
+    /// Grid coordinates at the box's depth.
+    pub corner: [u32; 3],
+    /// Classes the box lies inside of.
+    pub inside: ClassSet,
+    /// Classes that are undecided.
+    pub undecided: ClassSet,
+    /// Modes (one bit each) that exist all over the box: every H_j > 0 and every limit kept, proved.
+    pub closed: u8,
+}
+
+/// What a node is to a set of poses that is being looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mark {
+    /// The closed box lies in the set: proved.
+    Inside,
+    /// The closed box and the set are disjoint: proved.
+    Outside,
+    /// Neither is known of the box as a whole.
+    Open,
+}
+
+impl Node {
+    /// S_{s,σ} of a class (one bit), or the union over several classes.
+    pub fn of_classes(&self, classes: ClassSet) -> Mark {
+        if self.inside & classes != 0 {
+            Mark::Inside
+        } else if self.undecided & classes != 0 {
+            Mark::Open
+        } else {
+            Mark::Outside
+        }
+    }
+
+    /// The poses at which mode `m` exists, whatever det A is.
+    pub fn of_mode(&self, m: usize) -> Mark {
+        if self.closed >> m & 1 == 1 {
+            Mark::Inside
+        } else if self.undecided >> (2 * m) & 3 != 0 {
+            Mark::Open
+        } else {
+            Mark::Outside
+        }
+    }
+}
+
+/// A box in pose coordinates: lower and upper corner.
+pub type BoxOf = ([f64; 3], [f64; 3]);
+
+/// A window cut into boxes: a tree whose every node has 2^M children or none, M = 2 or 3 being the number of
+/// coordinates that vary.
+#[derive(Clone, Debug)]
+pub struct Paving {
+    /// The box that was paved.
+    pub window: Window,
+    /// Number M of coordinates that vary.
+    pub dimension: usize,
+    /// The modes, in the order of the class bits.
+    pub modes: Vec<WorkingMode>,
+    /// All nodes, level by level, within a level in Morton order. Node 0 is the window.
+    pub nodes: Vec<Node>,
+    /// Index of the first node of each level, and the number of nodes at the end.
+    pub levels: Vec<usize>,
+    /// Boxes classified.
+    pub boxes: u64,
+    /// Why the refinement ended.
+    pub stop: super::Stop,
+}
+
+impl Paving {
+    /// Depth of the node with this index.
+    pub fn depth_of(&self, node: u32) -> u32 {
+        (self.levels.partition_point(|&first| first <= node as usize) - 1) as u32
+    }
+
+    /// Depth of the finest nodes.
+    pub fn depth(&self) -> u32 {
+        self.levels.len() as u32 - 2
+    }
+
+    /// Area or volume of a box of depth `depth`.
+    pub fn measure(&self, depth: u32) -> f64 {
+        let whole: f64 =
+            self.window.axes().iter().map(|&k| self.window.ranges[k].1 - self.window.ranges[k].0).product();
+        whole / (1u64 << (self.dimension as u32 * depth)) as f64
+    }
+
+    /// Lower and upper corner in the pose coordinates that vary (unused entries 0).
+    pub fn bounds(&self, node: u32) -> BoxOf {
+        let depth = self.depth_of(node);
+        let corner = self.nodes[node as usize].corner;
+        let (mut lo, mut hi) = ([0.0; 3], [0.0; 3]);
+        for (a, k) in self.window.axes().into_iter().enumerate() {
+            lo[a] = self.window.grid_line(k, corner[a], depth);
+            hi[a] = self.window.grid_line(k, corner[a] + 1, depth);
+        }
+        (lo, hi)
+    }
+
+    /// The pose at the centre of a box; coordinates that do not vary have their fixed value.
+    pub fn centre(&self, node: u32) -> Vec<f64> {
+        let (lo, hi) = self.bounds(node);
+        let mut pose: Vec<f64> = self.window.ranges.iter().map(|r| r.0).collect();
+        for (a, k) in self.window.axes().into_iter().enumerate() {
+            pose[k] = 0.5 * (lo[a] + hi[a]);
+        }
+        pose
+    }
+
+    /// The children of a node, first to last.
+    pub fn children(&self, node: u32) -> std::ops::Range<u32> {
+        match self.nodes[node as usize].first_child {
+            0 => 0..0,
+            first => first..first + (1 << self.dimension),
+        }
+    }
+
+    /// Visits the boxes of a set that are not outside it: the coarsest ones inside it, and leaves in which it is
+    /// undecided. In the order of the tree, depth first.
+    pub fn boxes_of(&self, sight: &impl Fn(&Node) -> Mark, visit: &mut impl FnMut(u32)) {
+        self.walk(0, sight, visit);
+    }
+
+    fn walk(&self, at: u32, sight: &impl Fn(&Node) -> Mark, visit: &mut impl FnMut(u32)) {
+        match sight(&self.nodes[at as usize]) {
+            Mark::Outside => {}
+            Mark::Inside => visit(at),
+            Mark::Open if self.nodes[at as usize].first_child == 0 => visit(at),
+            Mark::Open => self.children(at).for_each(|child| self.walk(child, sight, visit)),
+        }
+    }
+
+    /// The box (as in [`Paving::boxes_of`], or one outside the set) that holds the pose, and whether the pose lies in
+    /// it by more than rounding, so that it surely holds it. `None` outside the window.
+    pub fn find(&self, sight: &impl Fn(&Node) -> Mark, pose: &[f64]) -> Option<(u32, bool)> {
+        let mut unit = [0.0; 3];
+        for (a, k) in self.window.axes().into_iter().enumerate() {
+            unit[a] = self.window.fraction(k, pose[k])?;
+        }
+        let unit = &unit[..self.dimension];
+        let (mut at, mut depth) = (0, 0);
+        loop {
+            let node = &self.nodes[at as usize];
+            let cells = (1u64 << depth) as f64;
+            if node.first_child == 0 || sight(node) != Mark::Open {
+                // Positions are off by some 1e-15 of the window, boxes are at least 1e-6 of it wide.
+                let surely = unit.iter().zip(node.corner).all(|(u, i)| {
+                    let within = u * cells - f64::from(i);
+                    (1e-6..=1.0 - 1e-6).contains(&within)
+                });
+                return Some((at, surely));
+            }
+            depth += 1;
+            let bit = |u: &f64| (((u * 2.0 * cells) as u64).min((1 << depth) - 1) & 1) as u32;
+            let child = unit.iter().enumerate().fold(0, |child, (a, u)| child | bit(u) << a);
+            at = node.first_child + child;
+        }
+    }
+}
+
+impl Window {
+    /// The coordinates that vary.
+    pub fn axes(&self) -> Vec<usize> {
+        (0..self.ranges.len()).filter(|&k| self.ranges[k].0 < self.ranges[k].1).collect()
+    }
+
+    /// Line `index` of 2^depth equal parts of coordinate k. The same line has the same double at every depth, so
+    /// cells of all depths fit without gaps.
+    pub fn grid_line(&self, k: usize, index: u32, depth: u32) -> f64 {
+        let (lo, hi) = self.ranges[k];
+        if index == 1 << depth {
+            return hi;
+        }
+        let part = f64::from(index) / (1u64 << depth) as f64;
+        lo + (hi - lo) * part
+    }
+
+    /// Where in the range of coordinate k the value lies, in [0, 1]; `None` if outside.
+    pub fn fraction(&self, k: usize, x: f64) -> Option<f64> {
+        let (lo, hi) = self.ranges[k];
+        let x = if self.glued[k] { lo + (x - lo).rem_euclid(std::f64::consts::TAU) } else { x };
+        (lo <= x && x <= hi).then(|| (x - lo) / (hi - lo))
+    }
+}
