@@ -135,7 +135,15 @@ impl Sheet<'_> {
         image
     }
 
-    fn extend_image(&self, which: Which, a: [f64; 2], b: [f64; 2], step: f64, depth: u32, image: &mut Vec<Vec<f64>>) {
+    fn extend_image(
+        &self,
+        which: Which,
+        a: [f64; 2],
+        b: [f64; 2],
+        step: f64,
+        depth: u32,
+        image: &mut Vec<Vec<f64>>,
+    ) {
         let Some(last) = image.last() else { return };
         let q = unwind(self.robot, self.barriers(b).q, last);
         let far = q.iter().zip(last).any(|(x, y)| (x - y).abs() > step);

@@ -16,7 +16,13 @@ const SLACK: f64 = 0.6;
 /// Draws the images g_s(cell) of a class of a robot with two coordinates on a raster over `axes`; angles wrap round.
 ///
 /// Undecided cells are drawn where f64 finds a configuration of the class in them, and beneath the others.
-pub fn image(sheet: &Sheet<'_>, sign: DetSign, cells: &[Cell], axes: &[Axis; 2], pixels: usize) -> Raster<Label> {
+pub fn image(
+    sheet: &Sheet<'_>,
+    sign: DetSign,
+    cells: &[Cell],
+    axes: &[Axis; 2],
+    pixels: usize,
+) -> Raster<Label> {
     let mut canvas = Canvas { sheet, sign, axes, raster: Raster::filled(pixels, pixels, Label::Outside) };
     let undecided = cells.iter().filter(|c| c.aspect.is_none());
     for cell in undecided.chain(cells.iter().filter(|c| c.aspect.is_some())) {

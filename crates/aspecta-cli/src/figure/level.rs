@@ -129,7 +129,9 @@ pub fn simplify(points: &[[f64; 2]], tolerance: f64) -> Vec<[f64; 2]> {
     while let Some((a, b)) = spans.pop() {
         keep.iter_mut().skip(a).step_by((b - a).max(1)).take(2).for_each(|k| *k = true);
         let off = |k: usize| distance(points[k], points[a], points[b]);
-        if let Some(far) = (a + 1..b).max_by(|&i, &j| off(i).total_cmp(&off(j))).filter(|&k| off(k) > tolerance) {
+        if let Some(far) =
+            (a + 1..b).max_by(|&i, &j| off(i).total_cmp(&off(j))).filter(|&k| off(k) > tolerance)
+        {
             spans.extend([(a, far), (far, b)]);
         }
     }

@@ -24,7 +24,8 @@ pub fn figure_9(survey: &Survey<'_>) -> String {
     let panel = 225.0;
     let row = TOP + panel + BELOW;
     let size = (4.0 * (LEFT + panel + 6.0) + 10.0, modes.len() as f64 * row + 34.0);
-    let mut svg = Svg::new("figure9", size.0, size.1, &format!("W-aspects and Q-aspects of {}", survey.robot.name));
+    let mut svg =
+        Svg::new("figure9", size.0, size.1, &format!("W-aspects and Q-aspects of {}", survey.robot.name));
     for (k, &mode) in modes.iter().enumerate() {
         for (c, sign) in [DetSign::Positive, DetSign::Negative].into_iter().enumerate() {
             let place = |space: usize| Place {
@@ -132,7 +133,9 @@ pub(super) fn draw_lines(svg: &mut Svg, chart: &Chart, lines: &Lines, turns: [bo
     for kind in [Kind::Limit, Kind::Serial, Kind::Parallel] {
         let mut d = String::new();
         for (_, line) in lines.iter().filter(|l| l.0 == kind) {
-            let copies = [0, 1].map(|k| copies(line.iter().map(|p| p[k]), if turns[k] { chart_range(chart, k) } else { None }));
+            let copies = [0, 1].map(|k| {
+                copies(line.iter().map(|p| p[k]), if turns[k] { chart_range(chart, k) } else { None })
+            });
             for (i, j) in copies[0].clone().flat_map(|i| copies[1].clone().map(move |j| (i, j))) {
                 let shifted: Vec<[f64; 2]> =
                     line.iter().map(|p| chart.at([p[0] + TAU * i as f64, p[1] + TAU * j as f64])).collect();
@@ -153,7 +156,10 @@ fn chart_range(chart: &Chart, axis: usize) -> Option<(f64, f64)> {
 }
 
 /// The whole turns to add to a line so that all of it is seen once in the range.
-fn copies(values: impl Iterator<Item = f64> + Clone, range: Option<(f64, f64)>) -> std::ops::RangeInclusive<i64> {
+fn copies(
+    values: impl Iterator<Item = f64> + Clone,
+    range: Option<(f64, f64)>,
+) -> std::ops::RangeInclusive<i64> {
     let Some((lo, hi)) = range else { return 0..=0 };
     let (least, most) = (values.clone().fold(f64::MAX, f64::min), values.fold(f64::MIN, f64::max));
     ((lo - most) / TAU).ceil() as i64..=((hi - least) / TAU).floor() as i64

@@ -83,8 +83,13 @@ impl View {
             [[-sin_a, cos_a, 0.0], [-sin_e * cos_a, -sin_e * sin_a, cos_e]]
         };
         let sphere = robot.platform == Platform::TurningBody;
-        let unit: Vec<Point> = if sphere { vec![[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]] } else { vec![] };
-        let points: Vec<Point> = skeletons.iter().flat_map(|s| s.points()).chain(unit).chain([[0.0; 3]]).collect();
+        let unit: Vec<Point> = if sphere {
+            vec![[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]]
+        } else {
+            vec![]
+        };
+        let points: Vec<Point> =
+            skeletons.iter().flat_map(|s| s.points()).chain(unit).chain([[0.0; 3]]).collect();
         let range = |k: usize| {
             let of = || points.iter().map(|p| dot(project[k], *p));
             let (lo, hi) = (of().fold(f64::MAX, f64::min), of().fold(f64::MIN, f64::max));
@@ -96,8 +101,13 @@ impl View {
         // Fill the box: equal scale leaves room along one axis.
         let scale = ((x.1 - x.0) / width).max((y.1 - y.0) / height);
         let grow = |r: (f64, f64), px: f64| (0.5 * (r.0 + r.1 - scale * px), 0.5 * (r.0 + r.1 + scale * px));
-        let axis = |name: &str, range| Axis { label: format!("{name} [{}]", robot.length_unit), range, angle: false };
-        let chart = Chart { x: axis("x", grow(x, width)), y: axis("y", grow(y, height)), left, top, width, height };
+        let axis = |name: &str, range| Axis {
+            label: format!("{name} [{}]", robot.length_unit),
+            range,
+            angle: false,
+        };
+        let chart =
+            Chart { x: axis("x", grow(x, width)), y: axis("y", grow(y, height)), left, top, width, height };
         Self { chart, project, flat }
     }
 
@@ -115,13 +125,23 @@ impl View {
         svg.text([c.left + c.width / 2.0, c.top - 7.0], Anchor::Middle, 12.0, "font-weight:600", title);
         let per_unit = c.width / c.x.span();
         let power = 10_f64.powf((60.0 / per_unit).log10().floor());
-        let length = [1.0, 2.0, 5.0, 10.0].map(|m| m * power).into_iter().find(|l| l * per_unit >= 45.0).unwrap_or(power);
+        let length = [1.0, 2.0, 5.0, 10.0]
+            .map(|m| m * power)
+            .into_iter()
+            .find(|l| l * per_unit >= 45.0)
+            .unwrap_or(power);
         let (x, y) = (c.left, c.top + c.height + 14.0);
         let style = format!("stroke:{INK};stroke-width:1.4");
         svg.line([x, y], [x + length * per_unit, y], &style);
         svg.line([x, y - 3.0], [x, y + 3.0], &style);
         svg.line([x + length * per_unit, y - 3.0], [x + length * per_unit, y + 3.0], &style);
-        svg.text([x + length * per_unit + 6.0, y + 4.0], Anchor::Start, 10.0, "", &format!("{length} {unit}"));
+        svg.text(
+            [x + length * per_unit + 6.0, y + 4.0],
+            Anchor::Start,
+            10.0,
+            "",
+            &format!("{length} {unit}"),
+        );
     }
 }
 
@@ -167,7 +187,11 @@ impl Drawing<'_> {
     fn base(&self, svg: &mut Svg, leg: &LegShape) {
         let a = self.view.at(leg.a);
         if let Some([from, to]) = leg.rail {
-            svg.line(self.view.at(from), self.view.at(to), &format!("stroke:{BASE};stroke-width:2;stroke-dasharray:7 3"));
+            svg.line(
+                self.view.at(from),
+                self.view.at(to),
+                &format!("stroke:{BASE};stroke-width:2;stroke-dasharray:7 3"),
+            );
             return;
         }
         let size = if self.names { 9.0 } else { 6.0 };
@@ -223,12 +247,15 @@ impl Drawing<'_> {
             return;
         }
         let corners: Vec<[f64; 2]> = self.skeleton.legs.iter().map(|l| self.view.at(l.c)).collect();
-        let style = format!("fill:{PLATFORM};fill-opacity:0.25;stroke:{PLATFORM};stroke-width:2;stroke-linejoin:round");
+        let style = format!(
+            "fill:{PLATFORM};fill-opacity:0.25;stroke:{PLATFORM};stroke-width:2;stroke-linejoin:round"
+        );
         svg.polyline(&corners, true, &style);
     }
 
     fn frame(&self, svg: &mut Svg, origin: Point, axes: [Point; 3], colour: &str) {
-        let length = if self.names { 0.1 } else { 0.12 } * self.view.chart.x.span().min(self.view.chart.y.span());
+        let length =
+            if self.names { 0.1 } else { 0.12 } * self.view.chart.x.span().min(self.view.chart.y.span());
         let style = format!("stroke:{colour};stroke-width:1.2;fill:none");
         for (axis, name) in axes.into_iter().zip(["x", "y", "z"]).take(self.robot.platform.space()) {
             let (from, to) = (self.view.at(origin), self.view.at(plus(origin, times(length, axis))));
@@ -237,7 +264,11 @@ impl Drawing<'_> {
             let norm = dx.hypot(dy).max(1e-9);
             let (ux, uy) = (5.0 * dx / norm, 5.0 * dy / norm);
             if norm > 8.0 {
-                let barbs = [[to[0] - ux - 0.5 * uy, to[1] - uy + 0.5 * ux], to, [to[0] - ux + 0.5 * uy, to[1] - uy - 0.5 * ux]];
+                let barbs = [
+                    [to[0] - ux - 0.5 * uy, to[1] - uy + 0.5 * ux],
+                    to,
+                    [to[0] - ux + 0.5 * uy, to[1] - uy - 0.5 * ux],
+                ];
                 svg.polyline(&barbs, false, &style);
                 if self.names {
                     let at = [to[0] + 1.6 * ux, to[1] + 1.6 * uy + 3.5];

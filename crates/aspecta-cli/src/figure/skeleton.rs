@@ -52,7 +52,9 @@ impl Skeleton {
 
     /// All named points.
     pub fn points(&self) -> impl Iterator<Item = Point> {
-        let leg = |l: &LegShape| [Some(l.a), l.b, Some(l.c)].into_iter().chain(l.rail.into_iter().flatten().map(Some));
+        let leg = |l: &LegShape| {
+            [Some(l.a), l.b, Some(l.c)].into_iter().chain(l.rail.into_iter().flatten().map(Some))
+        };
         self.legs.iter().flat_map(leg).flatten().chain([self.origin])
     }
 
@@ -89,7 +91,8 @@ fn shape<const D: usize>(leg: &Leg, placement: &Placement<f64, D>, q: f64) -> Le
             LegShape { a, b: Some(plus(a, local([l * q.cos(), l * q.sin(), 0.0]))), c, rail: None }
         }
         Actuator::Prismatic { rod } => {
-            let (lo, hi) = leg.length_range().map_or((q - rod.mid(), q + rod.mid()), |(lo, hi)| (lo.mid(), hi.mid()));
+            let (lo, hi) =
+                leg.length_range().map_or((q - rod.mid(), q + rod.mid()), |(lo, hi)| (lo.mid(), hi.mid()));
             let on = |t: f64| plus(a, local([t, 0.0, 0.0]));
             LegShape { a, b: Some(on(q)), c, rail: Some([on(lo), on(hi)]) }
         }

@@ -47,7 +47,8 @@ pub fn slices(robot: &Robot, window: &Window, sides: [usize; 3], mode: &ModeCell
     let step = (panel.0 + shape.width + 8.0, panel.1 + shape.height + panel.3);
     let size = ((3.0 * step.0 + 10.0).max(700.0), rows as f64 * step.1 + 34.0);
     let text = signs(&mode.mode.to_string());
-    let mut svg = Svg::new(&format!("slices-mf{}", mode.number), size.0, size.1, &format!("Slices of mode ({text})"));
+    let mut svg =
+        Svg::new(&format!("slices-mf{}", mode.number), size.0, size.1, &format!("Slices of mode ({text})"));
     for k in 0..SLICES {
         let at = range.0 + (range.1 - range.0) * (k as f64 + 0.5) / SLICES as f64;
         let [x, y] = axes.clone();

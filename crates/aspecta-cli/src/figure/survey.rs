@@ -58,7 +58,13 @@ pub struct ModeCurves {
 
 impl<'a> Survey<'a> {
     /// Maps of all classes; `cells[k]` are those of class k and `side` is the number of finest cells along an axis.
-    pub fn new(robot: &'a Robot, window: &Window, side: usize, classes: &'a [AspectClass], cells: &[Vec<Cell>]) -> Self {
+    pub fn new(
+        robot: &'a Robot,
+        window: &Window,
+        side: usize,
+        classes: &'a [AspectClass],
+        cells: &[Vec<Cell>],
+    ) -> Self {
         let plane = Plane { through: vec![0.0; robot.dof()], axes: [0, 1] };
         let pose_axes = pose_axes(robot, window, [0, 1]);
         let joint_axes = joint_axes(robot, classes);
@@ -97,7 +103,11 @@ pub fn pose_axes(robot: &Robot, window: &Window, axes: [usize; 2]) -> [Axis; 2] 
     axes.map(|k| {
         let c = robot.platform.coordinates()[k];
         let unit = if c.angle { "rad" } else { &robot.length_unit };
-        Axis { label: format!("{} [{unit}]", coordinate_name(c.name)), range: window.ranges[k], angle: c.angle }
+        Axis {
+            label: format!("{} [{unit}]", coordinate_name(c.name)),
+            range: window.ranges[k],
+            angle: c.angle,
+        }
     })
 }
 
@@ -111,8 +121,15 @@ fn joint_axes(robot: &Robot, classes: &[AspectClass]) -> [Axis; 2] {
     [0, 1].map(|k| {
         let angle = robot.legs[k].actuator.is_angle();
         let bounds = || classes.iter().flat_map(|c| &c.aspects).map(|a| a.q_bounds[k]);
-        let (lo, hi) = (bounds().map(|b| b.0).fold(f64::MAX, f64::min), bounds().map(|b| b.1).fold(f64::MIN, f64::max));
-        let range = if angle { (-PI, PI) } else if lo < hi { (lo, hi) } else { (0.0, 1.0) };
+        let (lo, hi) =
+            (bounds().map(|b| b.0).fold(f64::MAX, f64::min), bounds().map(|b| b.1).fold(f64::MIN, f64::max));
+        let range = if angle {
+            (-PI, PI)
+        } else if lo < hi {
+            (lo, hi)
+        } else {
+            (0.0, 1.0)
+        };
         let unit = if angle { "rad" } else { &robot.length_unit };
         Axis { label: format!("q{} [{unit}]", super::robot::subscript(k + 1)), range, angle }
     })

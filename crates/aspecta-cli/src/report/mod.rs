@@ -5,7 +5,7 @@ mod tables;
 mod volume;
 
 use crate::figure::{self, maps, slices, survey::Survey};
-use aspecta::aspect::{Analysis, AspectClass, Cell, DetSign, Sample};
+use aspecta::aspect::{Analysis, AspectClass, Cell, Sample};
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -68,9 +68,10 @@ fn put(dir: &Path, name: &str, text: &str) -> io::Result<PathBuf> {
 
 impl Figures {
     fn all(&self) -> impl Iterator<Item = &Figure> {
-        let flat = self.flat.iter().flat_map(|f| {
-            [&f.figure_9].into_iter().chain(&f.classes).chain([&f.parallel, &f.serial])
-        });
+        let flat = self
+            .flat
+            .iter()
+            .flat_map(|f| [&f.figure_9].into_iter().chain(&f.classes).chain([&f.parallel, &f.serial]));
         self.robot.iter().chain([&self.postures]).chain(flat).chain(&self.slices)
     }
 }
@@ -93,9 +94,8 @@ fn sample(analysis: &Analysis) -> Option<&Sample> {
 fn flat(analysis: &Analysis, cells: &[Vec<Cell>]) -> FlatFigures {
     let side = side(analysis, 0).max(side(analysis, 1));
     let survey = Survey::new(&analysis.robot, &analysis.window, side, &analysis.classes, cells);
-    let class = |c: &AspectClass| {
-        (maps::class_name(&survey, c.mode, c.det_a), maps::class(&survey, c.mode, c.det_a))
-    };
+    let class =
+        |c: &AspectClass| (maps::class_name(&survey, c.mode, c.det_a), maps::class(&survey, c.mode, c.det_a));
     FlatFigures {
         figure_9: ("figure9".into(), maps::figure_9(&survey)),
         classes: analysis.classes.iter().map(class).collect(),
@@ -121,6 +121,3 @@ fn side(analysis: &Analysis, axis: usize) -> usize {
     let (lo, hi) = analysis.window.ranges[axis];
     (((hi - lo) / analysis.run.resolution[axis]).round() as usize).max(1)
 }
-
-/// The mode's index among the modes, and both signs.
-const SIGNS: [DetSign; 2] = [DetSign::Positive, DetSign::Negative];

@@ -55,12 +55,17 @@ pub fn json(analysis: &Analysis, cells: &[Vec<Cell>]) -> std::io::Result<String>
         VolumeClass {
             mode: class.mode,
             det_a: class.det_a,
-            aspects: class.aspects.iter().map(|a| VolumeAspect { id: a.id, colour: palette::aspect(a.id) }).collect(),
+            aspects: class
+                .aspects
+                .iter()
+                .map(|a| VolumeAspect { id: a.id, colour: palette::aspect(a.id) })
+                .collect(),
             data: pack(&voxels(cells, &analysis.window.ranges, size, local)),
         }
     });
     let classes: Vec<VolumeClass> = classes.collect();
-    let number = |m: &aspecta::aspect::ModeReport| classes.iter().any(|c| c.mode == m.mode).then_some(m.number);
+    let number =
+        |m: &aspecta::aspect::ModeReport| classes.iter().any(|c| c.mode == m.mode).then_some(m.number);
     let numbers = analysis.modes.iter().filter_map(number).collect();
     let volume = Volume { axes: (0..3).map(axis).collect(), size, numbers, classes };
     // `<` only occurs within strings, where an escape is as good.
@@ -68,7 +73,12 @@ pub fn json(analysis: &Analysis, cells: &[Vec<Cell>]) -> std::io::Result<String>
 }
 
 /// Labels voxel by voxel, the first coordinate fastest. A voxel that meets an undecided cell is undecided.
-fn voxels(cells: &[Cell], ranges: &[(f64, f64)], size: [usize; 3], local: impl Fn(usize) -> usize) -> Vec<u32> {
+fn voxels(
+    cells: &[Cell],
+    ranges: &[(f64, f64)],
+    size: [usize; 3],
+    local: impl Fn(usize) -> usize,
+) -> Vec<u32> {
     let mut labels = vec![0; size.iter().product()];
     let inner = cells.iter().filter(|c| c.aspect.is_some());
     for cell in inner.chain(cells.iter().filter(|c| c.aspect.is_none())) {
