@@ -13,27 +13,22 @@ use aspecta::kinematics::WorkingMode;
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
-/// Pixels left of and above a plot for its texts, and between plots.
+/// Pixels round a plot for its texts.
 const LEFT: f64 = 48.0;
 const TOP: f64 = 26.0;
 const BELOW: f64 = 40.0;
+const BESIDE: f64 = 10.0;
 
 /// Figure 9: all modes (rows), W and Q for det A > 0 and det A < 0 (columns).
 pub fn figure_9(survey: &Survey<'_>) -> String {
     let modes = survey.robot.working_modes();
-    let panel = 225.0;
-    let row = TOP + panel + BELOW;
-    let size = (4.0 * (LEFT + panel + 6.0) + 10.0, modes.len() as f64 * row + 34.0);
+    let layout = Layout::new(survey, 225.0);
+    let size = (2.0 * layout.pair() + 10.0, modes.len() as f64 * layout.row() + 34.0);
     let mut svg =
         Svg::new("figure9", size.0, size.1, &format!("W-aspects and Q-aspects of {}", survey.robot.name));
     for (k, &mode) in modes.iter().enumerate() {
         for (c, sign) in [DetSign::Positive, DetSign::Negative].into_iter().enumerate() {
-            let place = |space: usize| Place {
-                left: LEFT + (2 * c + space) as f64 * (LEFT + panel + 6.0),
-                top: TOP + k as f64 * row,
-                side: panel,
-            };
-            class_panels(&mut svg, survey, mode, sign, [place(0), place(1)]);
+            class_panels(&mut svg, survey, mode, sign, &layout.charts(c, k));
         }
     }
     legend(&mut svg, survey, [LEFT, size.1 - 12.0]);
@@ -42,12 +37,11 @@ pub fn figure_9(survey: &Survey<'_>) -> String {
 
 /// One class: its W-aspects beside its Q-aspects.
 pub fn class(survey: &Survey<'_>, mode: WorkingMode, sign: DetSign) -> String {
-    let panel = 400.0;
-    let size = (2.0 * (LEFT + panel + 16.0), TOP + panel + BELOW + 34.0);
+    let layout = Layout::new(survey, 400.0);
+    let size = ((layout.pair() + 10.0).max(720.0), layout.row() + 34.0);
     let title = format!("Aspects of mode {} with {}", signs(&mode.to_string()), sign_text(sign));
     let mut svg = Svg::new(&class_name(survey, mode, sign), size.0, size.1, &title);
-    let place = |k: usize| Place { left: LEFT + k as f64 * (LEFT + panel + 16.0), top: TOP, side: panel };
-    class_panels(&mut svg, survey, mode, sign, [place(0), place(1)]);
+    class_panels(&mut svg, survey, mode, sign, &layout.charts(0, 0));
     legend(&mut svg, survey, [LEFT, size.1 - 12.0]);
     svg.finish()
 }
@@ -64,36 +58,53 @@ pub fn sign_text(sign: DetSign) -> &'static str {
     if sign == DetSign::Positive { "det A > 0" } else { "det A < 0" }
 }
 
-/// Where a square panel goes.
-#[derive(Clone, Copy)]
-struct Place {
-    left: f64,
-    top: f64,
-    side: f64,
+/// Pairs of plots, W beside Q, in rows and columns.
+struct Layout {
+    w: Chart,
+    q: Chart,
 }
 
-impl Place {
-    fn chart(self, axes: &[Axis; 2]) -> Chart {
-        let [x, y] = axes.clone();
-        Chart::fit(x, y, self.left, self.top, self.side, self.side)
+impl Layout {
+    /// Plots of at most `side` pixels.
+    fn new(survey: &Survey<'_>, side: f64) -> Self {
+        let fit = |[x, y]: [Axis; 2]| Chart::fit(x, y, 0.0, 0.0, side, side);
+        Self { w: fit(survey.pose_axes.clone()), q: fit(survey.joint_axes.clone()) }
+    }
+
+    /// Width of a pair.
+    fn pair(&self) -> f64 {
+        2.0 * (LEFT + BESIDE) + self.w.width + self.q.width
+    }
+
+    /// Height of a row.
+    fn row(&self) -> f64 {
+        TOP + self.w.height.max(self.q.height) + BELOW
+    }
+
+    /// The plots of W and Q in a place of the table.
+    fn charts(&self, column: usize, row: usize) -> [Chart; 2] {
+        let left = LEFT + column as f64 * self.pair();
+        let top = TOP + row as f64 * self.row();
+        let q_left = left + self.w.width + BESIDE + LEFT;
+        [Chart { left, top, ..self.w.clone() }, Chart { left: q_left, top, ..self.q.clone() }]
     }
 }
 
-fn class_panels(svg: &mut Svg, survey: &Survey<'_>, mode: WorkingMode, sign: DetSign, places: [Place; 2]) {
+fn class_panels(svg: &mut Svg, survey: &Survey<'_>, mode: WorkingMode, sign: DetSign, charts: &[Chart; 2]) {
     let Some((map, curves)) = survey.of(mode, sign) else { return };
     let name = format!("({}), {}", signs(&mode.to_string()), sign_text(sign));
     let aspects = &map.class.aspects;
 
-    let chart = places[0].chart(&survey.pose_axes);
-    fill(svg, &chart, &map.w, label_colour);
-    draw_lines(svg, &chart, &curves.w, [false; 2]);
-    number(svg, &chart, aspects, |a| [a.sample.pose[0], a.sample.pose[1]]);
+    let [chart, q_chart] = charts;
+    fill(svg, chart, &map.w, label_colour);
+    draw_lines(svg, chart, &curves.w, [false; 2]);
+    number(svg, chart, aspects, |a| [a.sample.pose[0], a.sample.pose[1]]);
     chart.frame(svg, &format!("W {name}"));
 
-    let chart = places[1].chart(&survey.joint_axes);
-    fill(svg, &chart, &map.q, label_colour);
-    draw_lines(svg, &chart, &curves.q, turns(survey));
-    number(svg, &chart, aspects, |a| [a.sample.q[0], a.sample.q[1]]);
+    let chart = q_chart;
+    fill(svg, chart, &map.q, label_colour);
+    draw_lines(svg, chart, &curves.q, turns(survey));
+    number(svg, chart, aspects, |a| [a.sample.q[0], a.sample.q[1]]);
     chart.frame(svg, &format!("Q {name}"));
 }
 
@@ -179,7 +190,10 @@ pub(super) fn number(svg: &mut Svg, chart: &Chart, aspects: &[Aspect], at: impl 
         let [x, y] = chart.at(at(aspect));
         let halo = "font-weight:600;paint-order:stroke;stroke:#fff;stroke-width:2.5px;stroke-linejoin:round";
         svg.circle([x, y], 1.8, &format!("fill:{INK};stroke:#fff;stroke-width:0.8"));
-        svg.text([x + 4.0, y - 3.0], Anchor::Start, 11.0, halo, &aspect.id.to_string());
+        let high = y < chart.top + 14.0;
+        let far = x > chart.left + chart.width - 16.0;
+        let (dx, anchor) = if far { (-4.0, Anchor::End) } else { (4.0, Anchor::Start) };
+        svg.text([x + dx, if high { y + 11.0 } else { y - 3.0 }], anchor, 11.0, halo, &aspect.id.to_string());
     }
 }
 
@@ -188,7 +202,7 @@ pub(super) fn legend(svg: &mut Svg, survey: &Survey<'_>, at: [f64; 2]) {
     let mut x = swatch(svg, at, palette::aspect(1), "aspect, numbered at a sample");
     x = swatch(svg, [x, at[1]], UNDECIDED, "undecided cells");
     x = sample_line(svg, [x, at[1]], Kind::Parallel, "det A = 0 (parallel)");
-    x = sample_line(svg, [x, at[1]], Kind::Serial, "B_jj = 0 (serial)");
+    x = sample_line(svg, [x, at[1]], Kind::Serial, "det B = 0 (serial)");
     if limits {
         sample_line(svg, [x, at[1]], Kind::Limit, "joint limit");
     }
@@ -240,9 +254,8 @@ pub fn serial_aspects(survey: &Survey<'_>) -> String {
 type Row = (String, Option<DetSign>, Option<WorkingMode>);
 
 fn overlaid(survey: &Survey<'_>, id: &str, title: &str, rows: &[Row]) -> String {
-    let panel = 240.0;
-    let (pair, row) = (2.0 * (LEFT + panel + 10.0), TOP + panel + BELOW);
-    let size = (2.0 * pair, rows.len().div_ceil(2) as f64 * row + 34.0);
+    let layout = Layout::new(survey, 240.0);
+    let size = (2.0 * layout.pair() + 10.0, rows.len().div_ceil(2) as f64 * layout.row() + 34.0);
     let mut svg = Svg::new(id, size.0, size.1, title);
     let mut most = 1;
     for (k, (name, sign, mode)) in rows.iter().enumerate() {
@@ -252,16 +265,9 @@ fn overlaid(survey: &Survey<'_>, id: &str, title: &str, rows: &[Row]) -> String 
             };
             survey.classes.iter().filter(wanted)
         };
-        let left = LEFT + (k % 2) as f64 * pair;
-        let top = TOP + (k / 2) as f64 * row;
-        let spaces = [
-            ("W", &survey.pose_axes, overlay(chosen().map(|c| &c.w))),
-            ("Q", &survey.joint_axes, overlay(chosen().map(|c| &c.q))),
-        ];
-        for (i, (space, axes, counts)) in spaces.into_iter().enumerate() {
+        let counts = [("W", overlay(chosen().map(|c| &c.w))), ("Q", overlay(chosen().map(|c| &c.q)))];
+        for ((space, counts), chart) in counts.into_iter().zip(layout.charts(k % 2, k / 2)) {
             let Some(counts) = counts else { continue };
-            let place = Place { left: left + i as f64 * (LEFT + panel + 10.0), top, side: panel };
-            let chart = place.chart(axes);
             for over in counts.labels() {
                 if let Over::Certainly(n) = over {
                     most = most.max(n);

@@ -113,11 +113,11 @@ impl<T: Copy + PartialEq> Raster<T> {
 }
 
 /// The lattice lines that enclose [lo, hi] ⊂ range when cut into n: a half-open range of pixels. Bounds that
-/// lie on a line up to rounding count as on it.
+/// lie on a line up to rounding count as on it; at least one pixel.
 pub fn pixels((lo, hi): (f64, f64), range: (f64, f64), n: usize) -> std::ops::Range<usize> {
     let scale = n as f64 / (range.1 - range.0);
     let slack = 1e-6;
     let first = ((lo - range.0) * scale + slack).floor().max(0.0) as usize;
     let last = ((hi - range.0) * scale - slack).ceil().max(0.0) as usize;
-    first..last.min(n)
+    first..last.max(first + 1).min(n)
 }

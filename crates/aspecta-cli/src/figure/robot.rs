@@ -96,7 +96,7 @@ impl View {
             (lo, hi.max(lo + 1e-12))
         };
         let (mut x, mut y) = (range(0), range(1));
-        let margin = 0.1 * (x.1 - x.0).max(y.1 - y.0);
+        let margin = 0.14 * (x.1 - x.0).max(y.1 - y.0);
         (x, y) = ((x.0 - margin, x.1 + margin), (y.0 - margin, y.1 + margin));
         // Fill the box: equal scale leaves room along one axis.
         let scale = ((x.1 - x.0) / width).max((y.1 - y.0) / height);

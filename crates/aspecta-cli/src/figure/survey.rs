@@ -105,10 +105,16 @@ pub fn pose_axes(robot: &Robot, window: &Window, axes: [usize; 2]) -> [Axis; 2] 
         let unit = if c.angle { "rad" } else { &robot.length_unit };
         Axis {
             label: format!("{} [{unit}]", coordinate_name(c.name)),
-            range: window.ranges[k],
+            range: shown_range(window, k),
             angle: c.angle,
         }
     })
+}
+
+/// The window's range of a coordinate, widened if the coordinate is fixed.
+pub fn shown_range(window: &Window, k: usize) -> (f64, f64) {
+    let (lo, hi) = window.ranges[k];
+    if lo < hi { (lo, hi) } else { (lo - 0.5, lo + 0.5) }
 }
 
 /// A coordinate's name as it is written in formulas.

@@ -119,5 +119,5 @@ fn mode_slices(analysis: &Analysis, cells: &[Vec<Cell>]) -> Vec<Figure> {
 /// How many finest cells there are along a coordinate.
 fn side(analysis: &Analysis, axis: usize) -> usize {
     let (lo, hi) = analysis.window.ranges[axis];
-    (((hi - lo) / analysis.run.resolution[axis]).round() as usize).max(1)
+    if lo < hi { (((hi - lo) / analysis.run.resolution[axis]).round() as usize).max(1) } else { 1 }
 }

@@ -194,11 +194,12 @@ fn earlier_section(analysis: &Analysis, figures: &Figures) -> Markup {
                 (figure(&flat.parallel, html! {
                     "Definition 5 (figures 6 and 7 of the paper): all configurations with det A of one sign, in W and in Q. Shades count the \
                      configurations over a place. More than one over a pose: the domain holds several inverse solutions and does \
-                     not separate them."
+                     not separate them. In W both signs share " (number(analysis.parallel_aspects.first().map_or(0.0, |e| e.overlap))) " "
+                    (measure_unit(&analysis.robot)) " (certified): there the sign of det A says nothing about where the robot is."
                 }))
                 (figure(&flat.serial, html! {
                     "Definition 6: all configurations of one working mode, in W and in Q. Two over a joint vector: the domain holds several \
-                     direct solutions and does not separate them."
+                     direct solutions and does not separate them. The grey lines within are the undecided cells along det A = 0."
                 }))
             }
             div.scroll { (tables::earlier(analysis)) }

@@ -107,7 +107,7 @@ pub fn classes(analysis: &Analysis) -> Markup {
                 th scope="col" { "certified " (what) } th scope="col" { "undecided " (what) } th scope="col" { "undecided share" }
             } }
             tbody { @for c in &analysis.classes { tr {
-                th scope="row" { (signs(&c.mode.to_string())) }
+                th scope="row" { (mode_name(analysis, c)) }
                 @for s in c.mode.signs() { td.sign { @if s > 0 { "+" } @else { "−" } } }
                 td.sign { @if sign_text(c.det_a).ends_with("> 0") { "+" } @else { "−" } }
                 td { strong { (bounds(c.low, c.high)) } }
@@ -139,12 +139,13 @@ pub fn aspects(analysis: &Analysis) -> Markup {
                 th scope="col" { "bounds in W" } th scope="col" { "bounds in Q" }
             } }
             tbody { @for c in &analysis.classes { @for a in &c.aspects { tr {
-                th scope="row" { span.swatch style={ "background:" (palette::aspect(a.id)) } {} (a.id) }
-                td { (signs(&c.mode.to_string())) }
+                th.number scope="row" { span.swatch style={ "background:" (palette::aspect(a.id)) } {} (a.id) }
+                td { (mode_name(analysis, c)) }
                 td.sign { @if sign_text(c.det_a).ends_with("> 0") { "+" } @else { "−" } }
                 td.number { (number(a.measure)) } td.number { (a.pieces) }
                 td { (vector(&a.sample.pose)) } td { (vector(&a.sample.q)) }
-                td { (ranges(&a.w_bounds)) } td { (ranges(&a.q_bounds)) }
+                td { (ranges(&a.w_bounds, |k| coordinate_name(robot.platform.coordinates()[k].name).to_owned())) }
+                td { (ranges(&a.q_bounds, |k| format!("q{}", subscript(k + 1)))) }
             } } } }
         }
     }
@@ -212,12 +213,17 @@ fn vector(v: &[f64]) -> String {
     format!("({})", v.iter().map(|&x| number(x)).collect::<Vec<_>>().join(", "))
 }
 
-fn ranges(all: &[(f64, f64)]) -> String {
-    all.iter()
-        .enumerate()
-        .map(|(k, r)| format!("{}: {}…{}", subscript(k + 1), number(r.0), number(r.1)))
-        .collect::<Vec<_>>()
-        .join("; ")
+/// One line a coordinate.
+fn ranges(all: &[(f64, f64)], name: impl Fn(usize) -> String) -> Markup {
+    html! { @for (k, r) in all.iter().enumerate() {
+        span.range { (name(k)) ": " (number(r.0)) " … " (number(r.1)) }
+    } }
+}
+
+/// `Mf2 (+−)`.
+fn mode_name(analysis: &Analysis, class: &AspectClass) -> String {
+    let number = analysis.modes.iter().find(|m| m.mode == class.mode).map_or(0, |m| m.number);
+    format!("Mf{number} ({})", signs(&class.mode.to_string()))
 }
 
 /// Four significant digits.

@@ -2,7 +2,7 @@
 
 use crate::figure::palette;
 use crate::figure::raster::pixels;
-use crate::figure::survey::coordinate_name;
+use crate::figure::survey::{coordinate_name, shown_range};
 use aspecta::aspect::{Analysis, Cell, DetSign};
 use aspecta::kinematics::WorkingMode;
 use base64::prelude::{BASE64_STANDARD, Engine};
@@ -47,9 +47,10 @@ pub fn json(analysis: &Analysis, cells: &[Vec<Cell>]) -> std::io::Result<String>
     let axis = |k: usize| {
         let unit = if coordinates[k].angle { "rad" } else { &analysis.robot.length_unit };
         let label = format!("{} [{unit}]", coordinate_name(coordinates[k].name));
-        VolumeAxis { label, range: analysis.window.ranges[k], angle: coordinates[k].angle }
+        VolumeAxis { label, range: shown_range(&analysis.window, k), angle: coordinates[k].angle }
     };
     let size = std::array::from_fn(|k| super::side(analysis, k).min(VOXELS));
+    let ranges: [_; 3] = std::array::from_fn(|k| shown_range(&analysis.window, k));
     let classes = analysis.classes.iter().zip(cells).map(|(class, cells)| {
         let local = |id: usize| class.aspects.iter().position(|a| a.id == id).map_or(1, |k| k + 2);
         VolumeClass {
@@ -60,7 +61,7 @@ pub fn json(analysis: &Analysis, cells: &[Vec<Cell>]) -> std::io::Result<String>
                 .iter()
                 .map(|a| VolumeAspect { id: a.id, colour: palette::aspect(a.id) })
                 .collect(),
-            data: pack(&voxels(cells, &analysis.window.ranges, size, local)),
+            data: pack(&voxels(cells, &ranges, size, local)),
         }
     });
     let classes: Vec<VolumeClass> = classes.collect();

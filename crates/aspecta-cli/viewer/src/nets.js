@@ -1,7 +1,7 @@
 // Surface nets (Gibson 1998) of the voxels with one label: a closed mesh, one vertex for each place where eight
 // voxels meet that are not all alike, one quadrilateral for each face between a voxel inside and one outside.
 
-const SMOOTHING = 4; // rounds of averaging, to take the stairs off
+const SMOOTHING = 10; // rounds of averaging, to take the stairs off
 
 // Positions in voxel units: voxel (i, j, k) is the cube from there to (i + 1, j + 1, k + 1).
 export function surfaceNet(labels, [nx, ny, nz], label, box) {
