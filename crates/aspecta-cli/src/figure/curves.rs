@@ -124,9 +124,9 @@ impl Sheet<'_> {
         best
     }
 
-    /// The image g_s(curve) in Q, refined until steps are below `step`; angles are unwound, so that the line is
+    /// The image g_s(curve) in Q, refined until no coordinate q_k steps by more than `step[k]`; angles are unwound, so that the line is
     /// continuous and may leave (−π, π].
-    pub fn image(&self, curve: &Curve, step: f64) -> Vec<Vec<f64>> {
+    pub fn image(&self, curve: &Curve, step: &[f64]) -> Vec<Vec<f64>> {
         let Some(&first) = curve.points.first() else { return Vec::new() };
         let mut image = vec![self.barriers(first).q];
         for pair in curve.points.windows(2) {
@@ -139,14 +139,12 @@ impl Sheet<'_> {
         &self,
         which: Which,
         a: [f64; 2],
-        b: [f64; 2],
-        step: f64,
-        depth: u32,
+        b: [f64; 2], step: &[f64], depth: u32,
         image: &mut Vec<Vec<f64>>,
     ) {
         let Some(last) = image.last() else { return };
         let q = unwind(self.robot, self.barriers(b).q, last);
-        let far = q.iter().zip(last).any(|(x, y)| (x - y).abs() > step);
+        let far = (0..q.len()).any(|k| (q[k] - last[k]).abs() > step[k]);
         if far && depth > 0 {
             if let Some(middle) = project(a, b, 0.5, &|p| self.value(which, p)) {
                 self.extend_image(which, a, middle, step, depth - 1, image);

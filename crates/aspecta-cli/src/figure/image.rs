@@ -3,19 +3,22 @@
 use super::axes::Axis;
 use super::barrier::Barriers;
 use super::curves::{Sheet, unwind};
+use super::level::Grid;
 use super::raster::{Label, Raster};
 use aspecta::aspect::{Cell, DetSign};
 
-/// How many pixels the image of a piece of a cell may span before it is drawn as a quadrilateral.
+/// A cell is cut into four until its image spans fewer pixels than this, …
+const COARSE: f64 = 48.0;
+/// … at most so often, …
+const CUTS: u32 = 7;
+/// … and then into a grid of quadrilaterals of about this size.
 const FINE: f64 = 4.0;
-/// How often a cell may be cut into four for that.
-const CUTS: u32 = 9;
 /// Pixels within this distance (in pixels) of a quadrilateral are drawn too, so that neighbours leave no gap.
 const SLACK: f64 = 0.6;
 
 /// Draws the images g_s(cell) of a class of a robot with two coordinates on a raster over `axes`; angles wrap round.
 ///
-/// Undecided cells are drawn where f64 finds a configuration of the class in them, and beneath the others.
+/// Undecided cells are drawn where f64 finds a configuration of the class at a corner of a piece of them, and beneath the others.
 pub fn image(
     sheet: &Sheet<'_>,
     sign: DetSign,
@@ -41,31 +44,39 @@ struct Canvas<'a> {
 impl Canvas<'_> {
     fn draw(&mut self, cell: &Cell, lo: [f64; 2], hi: [f64; 2], cuts: u32) {
         let middle = [0.5 * (lo[0] + hi[0]), 0.5 * (lo[1] + hi[1])];
-        let centre = self.sheet.barriers(middle);
-        let corners = [lo, [hi[0], lo[1]], hi, [lo[0], hi[1]]].map(|p| {
-            let q = unwind(self.sheet.robot, self.sheet.barriers(p).q, &centre.q);
-            self.to_pixels(&q)
-        });
-        let range = |k: usize| {
-            let of = corners.iter().map(|c| c[k]);
-            (of.clone().fold(f64::MAX, f64::min), of.fold(f64::MIN, f64::max))
-        };
-        let (across, up) = (range(0), range(1));
-        if cuts > 0 && (across.1 - across.0).max(up.1 - up.0) > FINE {
-            for k in 0..4 {
-                let pick = |axis: usize, high: bool| {
-                    if high { (middle[axis], hi[axis]) } else { (lo[axis], middle[axis]) }
-                };
-                let (x, y) = (pick(0, k & 1 == 1), pick(1, k & 2 == 2));
-                self.draw(cell, [x.0, y.0], [x.1, y.1], cuts - 1);
-            }
+        let centre = self.sheet.barriers(middle).q;
+        let corners = [lo, [hi[0], lo[1]], hi, [lo[0], hi[1]]].map(|p| self.map(p, &centre).0);
+        let [across, up] = extent(&corners);
+        let size = (across.1 - across.0).max(up.1 - up.0);
+        if cuts == 0 || size <= COARSE {
+            self.draw_grid(cell, lo, hi, &centre, (size / FINE).ceil().clamp(1.0, COARSE) as usize);
             return;
         }
-        match cell.aspect {
-            Some(id) => self.fill(&corners, across, up, Label::Aspect(id)),
-            None if self.belongs(&centre) => self.fill(&corners, across, up, Label::Undecided),
-            None => {}
+        for k in 0..4 {
+            let pick = |axis: usize, high: bool| if high { (middle[axis], hi[axis]) } else { (lo[axis], middle[axis]) };
+            let (x, y) = (pick(0, k & 1 == 1), pick(1, k & 2 == 2));
+            self.draw(cell, [x.0, y.0], [x.1, y.1], cuts - 1);
         }
+    }
+
+    /// Draws a piece of a cell as n × n quadrilaterals, angles unwound to be near those of `centre`.
+    fn draw_grid(&mut self, cell: &Cell, lo: [f64; 2], hi: [f64; 2], centre: &[f64], n: usize) {
+        let grid = Grid { x: (lo[0], hi[0]), y: (lo[1], hi[1]), n };
+        let nodes = grid.sample(|p| self.map(p, centre));
+        for k in (0..n * n).map(|k| k % n + (k / n) * (n + 1)) {
+            let quad = [k, k + 1, k + n + 2, k + n + 1].map(|node| nodes[node]);
+            let label = cell.aspect.map_or(Label::Undecided, Label::Aspect);
+            if cell.aspect.is_some() || quad.iter().any(|node| node.1) {
+                self.fill(&quad.map(|node| node.0), label);
+            }
+        }
+    }
+
+    /// The image of a pose in pixels, and whether f64 finds it in the class.
+    fn map(&self, p: [f64; 2], centre: &[f64]) -> ([f64; 2], bool) {
+        let b = self.sheet.barriers(p);
+        let belongs = self.belongs(&b);
+        (self.to_pixels(&unwind(self.sheet.robot, b.q, centre)), belongs)
     }
 
     fn belongs(&self, b: &Barriers) -> bool {
@@ -78,7 +89,8 @@ impl Canvas<'_> {
         std::array::from_fn(|k| (q[k] - self.axes[k].range.0) / self.axes[k].span() * n)
     }
 
-    fn fill(&mut self, corners: &[[f64; 2]; 4], across: (f64, f64), up: (f64, f64), label: Label) {
+    fn fill(&mut self, corners: &[[f64; 2]; 4], label: Label) {
+        let [across, up] = extent(corners);
         let first = |x: f64| (x - SLACK - 0.5).ceil() as i64;
         let last = |x: f64| (x + SLACK - 0.5).floor() as i64;
         for row in first(up.0)..=last(up.1) {
@@ -99,6 +111,14 @@ impl Canvas<'_> {
         let pixel = if turns { pixel.rem_euclid(n) } else { pixel };
         (0..n).contains(&pixel).then_some(pixel as usize)
     }
+}
+
+/// The ranges of both coordinates.
+fn extent(corners: &[[f64; 2]; 4]) -> [(f64, f64); 2] {
+    [0, 1].map(|k| {
+        let of = corners.iter().map(|c| c[k]);
+        (of.clone().fold(f64::MAX, f64::min), of.fold(f64::MIN, f64::max))
+    })
 }
 
 /// Whether p is in the quadrilateral or within [`SLACK`] of it.

@@ -28,14 +28,14 @@ impl Grid {
 }
 
 /// The curves f = 0, given the values of f at the nodes: polylines whose vertices are the zeros of f on the grid's
-/// edges, each found by bisection to the last bits of its coordinate. A closed curve repeats its first vertex.
+/// edges, each found to the last bits of its coordinate. A closed curve repeats its first vertex.
 pub fn contours(grid: &Grid, values: &[f64], f: impl Fn([f64; 2]) -> f64) -> Vec<Vec<[f64; 2]>> {
     chain(&segments(grid, values, &f))
         .into_iter()
         .map(|edges| {
             let zero = |&(i, j, up): &Edge| {
                 let far = if up { (i, j + 1) } else { (i + 1, j) };
-                bisect(grid.node(i, j), grid.node(far.0, far.1), &f)
+                root(grid.node(i, j), grid.node(far.0, far.1), &f)
             };
             edges.iter().map(zero).collect()
         })
@@ -99,16 +99,26 @@ fn chain(segments: &[(Edge, Edge)]) -> Vec<Vec<Edge>> {
     chains
 }
 
-/// The zero of f between a and b, where f changes sign.
-fn bisect(a: [f64; 2], b: [f64; 2], f: &impl Fn([f64; 2]) -> f64) -> [f64; 2] {
+/// The zero of f between a and b, where f changes sign, to the last bits: two false-position steps, then a bisection,
+/// over and over.
+fn root(a: [f64; 2], b: [f64; 2], f: &impl Fn([f64; 2]) -> f64) -> [f64; 2] {
     let at = |t: f64| [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])];
-    let rising = f(b) >= 0.0;
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..52 {
-        let middle = 0.5 * (low + high);
-        if (f(at(middle)) >= 0.0) == rising { high = middle } else { low = middle }
+    let (mut low, mut high) = ((0.0, f(a)), (1.0, f(b)));
+    for step in 0..150 {
+        let width = high.0 - low.0;
+        let middle = 0.5 * (low.0 + high.0);
+        let secant = low.0 - low.1 * width / (high.1 - low.1);
+        // A little beyond the secant's zero: so the bracket closes from both sides.
+        let push = if secant < middle { 1e-3 } else { -1e-3 } * width;
+        let t = [secant, secant + push, middle][step % 3];
+        let t = if t > low.0 && t < high.0 { t } else { middle };
+        if width < 1e-15 || t <= low.0 || t >= high.0 {
+            break;
+        }
+        let value = f(at(t));
+        if (value >= 0.0) == (low.1 >= 0.0) { low = (t, value) } else { high = (t, value) }
     }
-    at(0.5 * (low + high))
+    at(if low.1.abs() < high.1.abs() { low.0 } else { high.0 })
 }
 
 /// The point of the curve on the normal through the point `t` of the chord from a to b, if it is within a chord's
@@ -119,7 +129,7 @@ pub fn project(a: [f64; 2], b: [f64; 2], t: f64, f: &impl Fn([f64; 2]) -> f64) -
     let beside = |s: f64| [foot[0] - s * chord[1], foot[1] + s * chord[0]];
     let differ = |s: f64| (f(beside(-s)) >= 0.0) != (f(beside(s)) >= 0.0);
     let width = [1e-3, 0.03, 0.3, 1.0].into_iter().find(|&s| differ(s))?;
-    Some(bisect(beside(-width), beside(width), f))
+    Some(root(beside(-width), beside(width), f))
 }
 
 /// Leaves out vertices that lie within `tolerance` of the polyline through those kept (Douglas & Peucker).

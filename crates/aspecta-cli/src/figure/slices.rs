@@ -17,7 +17,7 @@ use aspecta::robot::{Robot, Window};
 /// Slices in a figure, in rows of three.
 const SLICES: usize = 9;
 /// Grid cells per side in which singular curves are looked for.
-const GRID: usize = 160;
+const GRID: usize = 128;
 /// Most pixels along a side.
 const PIXELS: usize = 256;
 

@@ -9,6 +9,7 @@ use super::raster::{Label, Raster, pixels};
 use aspecta::aspect::{AspectClass, Cell, DetSign};
 use aspecta::kinematics::WorkingMode;
 use aspecta::robot::{Robot, Window};
+use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// Grid cells per side in which singular curves are looked for.
@@ -70,14 +71,14 @@ impl<'a> Survey<'a> {
         let joint_axes = joint_axes(robot, classes);
         let side = side.clamp(1, 1024);
         let sheet = |mode| Sheet { robot, mode, plane: &plane };
-        let maps = classes.iter().zip(cells).map(|(class, cells)| ClassMap {
+        let maps = classes.par_iter().zip(cells).map(|(class, cells)| ClassMap {
             class,
             w: cell_raster(cells, &pose_axes, [0, 1], [side, side]),
             q: image(&sheet(class.mode), class.det_a, cells, &joint_axes, PIXELS),
         });
         let classes = maps.collect();
         let grid = Grid { x: pose_axes[0].range, y: pose_axes[1].range, n: GRID };
-        let curves = robot.working_modes().into_iter().map(|mode| mode_curves(&sheet(mode), &grid)).collect();
+        let curves = robot.working_modes().into_par_iter().map(|mode| mode_curves(&sheet(mode), &grid, &joint_axes)).collect();
         Self { robot, pose_axes, joint_axes, classes, curves }
     }
 
@@ -88,9 +89,10 @@ impl<'a> Survey<'a> {
     }
 }
 
-fn mode_curves(sheet: &Sheet<'_>, grid: &Grid) -> ModeCurves {
+fn mode_curves(sheet: &Sheet<'_>, grid: &Grid, joint_axes: &[Axis; 2]) -> ModeCurves {
     let curves = sheet.curves(grid);
-    let image = |c| sheet.image(c, 0.03).into_iter().map(|q| [q[0], q[1]]).collect();
+    let step = [0, 1].map(|k| joint_axes[k].span() / 200.0);
+    let image = |c| sheet.image(c, &step).into_iter().map(|q| [q[0], q[1]]).collect();
     ModeCurves {
         mode: sheet.mode,
         q: curves.iter().map(|c| (c.kind, image(c))).collect(),

@@ -6,6 +6,7 @@ mod volume;
 
 use crate::figure::{self, maps, slices, survey::Survey};
 use aspecta::aspect::{Analysis, AspectClass, Cell, Sample};
+use rayon::prelude::*;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -113,7 +114,7 @@ fn mode_slices(analysis: &Analysis, cells: &[Vec<Cell>]) -> Vec<Figure> {
         let mode = slices::ModeCells { mode: m.mode, number: m.number, classes: &classes };
         (format!("slices-mf{}", m.number), slices::slices(&analysis.robot, &analysis.window, sides, &mode))
     };
-    analysis.modes.iter().map(figure).collect()
+    analysis.modes.par_iter().map(figure).collect()
 }
 
 /// How many finest cells there are along a coordinate.

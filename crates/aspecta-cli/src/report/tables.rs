@@ -107,7 +107,7 @@ pub fn classes(analysis: &Analysis) -> Markup {
                 th scope="col" { "certified " (what) } th scope="col" { "undecided " (what) } th scope="col" { "undecided share" }
             } }
             tbody { @for c in &analysis.classes { tr {
-                th scope="row" { (mode_name(analysis, c)) }
+                th.name scope="row" { (mode_name(analysis, c)) }
                 @for s in c.mode.signs() { td.sign { @if s > 0 { "+" } @else { "−" } } }
                 td.sign { @if sign_text(c.det_a).ends_with("> 0") { "+" } @else { "−" } }
                 td { strong { (bounds(c.low, c.high)) } }
@@ -140,7 +140,7 @@ pub fn aspects(analysis: &Analysis) -> Markup {
             } }
             tbody { @for c in &analysis.classes { @for a in &c.aspects { tr {
                 th.number scope="row" { span.swatch style={ "background:" (palette::aspect(a.id)) } {} (a.id) }
-                td { (mode_name(analysis, c)) }
+                td.name { (mode_name(analysis, c)) }
                 td.sign { @if sign_text(c.det_a).ends_with("> 0") { "+" } @else { "−" } }
                 td.number { (number(a.measure)) } td.number { (a.pieces) }
                 td { (vector(&a.sample.pose)) } td { (vector(&a.sample.q)) }
@@ -223,7 +223,7 @@ fn ranges(all: &[(f64, f64)], name: impl Fn(usize) -> String) -> Markup {
 /// `Mf2 (+−)`.
 fn mode_name(analysis: &Analysis, class: &AspectClass) -> String {
     let number = analysis.modes.iter().find(|m| m.mode == class.mode).map_or(0, |m| m.number);
-    format!("Mf{number} ({})", signs(&class.mode.to_string()))
+    format!("Mf{number}\u{a0}({})", signs(&class.mode.to_string()))
 }
 
 /// Four significant digits.

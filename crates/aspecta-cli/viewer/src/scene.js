@@ -25,7 +25,7 @@ export class View {
     this.scene.add(new AmbientLight("#ffffff", 1.5));
     this.camera = new PerspectiveCamera(32, 1, 0.1, 50);
     this.camera.up.set(0, 0, 1);
-    this.camera.position.set(1.9, -3.3, 1.9);
+    this.camera.position.set(2.2, -3.9, 2.1);
     const lamp = new DirectionalLight("#ffffff", 1.8);
     lamp.position.set(-1, -2, 3);
     this.camera.add(lamp);
