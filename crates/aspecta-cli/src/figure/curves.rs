@@ -139,7 +139,9 @@ impl Sheet<'_> {
         &self,
         which: Which,
         a: [f64; 2],
-        b: [f64; 2], step: &[f64], depth: u32,
+        b: [f64; 2],
+        step: &[f64],
+        depth: u32,
         image: &mut Vec<Vec<f64>>,
     ) {
         let Some(last) = image.last() else { return };
