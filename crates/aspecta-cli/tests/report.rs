@@ -104,6 +104,18 @@ fn names_are_escaped() {
     assert!(!page.contains("alert(1)</script>") && !page.contains("</script><b>"));
 }
 
+/// An analysis that decided next to nothing (stopped at once, say) has a report too.
+#[test]
+fn nothing_decided() {
+    for robot in [five_bar(), three_rrr()] {
+        let analysis = analysis(&robot, 1);
+        assert!(analysis.classes.iter().all(|c| c.aspects.is_empty()));
+        let (dir, _keep) = directory(&format!("undecided-{}", robot.name));
+        let page = checked(&analysis, &dir, &["robot", "modes", "counts", "earlier"], 15_000_000);
+        assert!(page.contains("at least 0 generalized aspects"));
+    }
+}
+
 /// A place that cannot be written to is an error, not a panic.
 #[test]
 fn errors_of_the_file_system_are_returned() {
