@@ -139,18 +139,21 @@ impl Sheet<'_> {
         &self,
         which: Which,
         a: [f64; 2],
-        b: [f64; 2], step: &[f64], depth: u32,
+        b: [f64; 2],
+        step: &[f64],
+        depth: u32,
         image: &mut Vec<Vec<f64>>,
     ) {
         let Some(last) = image.last() else { return };
         let q = unwind(self.robot, self.barriers(b).q, last);
         let far = (0..q.len()).any(|k| (q[k] - last[k]).abs() > step[k]);
-        if far && depth > 0 {
-            if let Some(middle) = project(a, b, 0.5, &|p| self.value(which, p)) {
-                self.extend_image(which, a, middle, step, depth - 1, image);
-                self.extend_image(which, middle, b, step, depth - 1, image);
-                return;
-            }
+        if far
+            && depth > 0
+            && let Some(middle) = project(a, b, 0.5, &|p| self.value(which, p))
+        {
+            self.extend_image(which, a, middle, step, depth - 1, image);
+            self.extend_image(which, middle, b, step, depth - 1, image);
+            return;
         }
         image.push(q);
     }

@@ -53,7 +53,9 @@ impl Canvas<'_> {
             return;
         }
         for k in 0..4 {
-            let pick = |axis: usize, high: bool| if high { (middle[axis], hi[axis]) } else { (lo[axis], middle[axis]) };
+            let pick = |axis: usize, high: bool| {
+                if high { (middle[axis], hi[axis]) } else { (lo[axis], middle[axis]) }
+            };
             let (x, y) = (pick(0, k & 1 == 1), pick(1, k & 2 == 2));
             self.draw(cell, [x.0, y.0], [x.1, y.1], cuts - 1);
         }

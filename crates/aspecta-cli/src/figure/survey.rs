@@ -78,7 +78,11 @@ impl<'a> Survey<'a> {
         });
         let classes = maps.collect();
         let grid = Grid { x: pose_axes[0].range, y: pose_axes[1].range, n: GRID };
-        let curves = robot.working_modes().into_par_iter().map(|mode| mode_curves(&sheet(mode), &grid, &joint_axes)).collect();
+        let curves = robot
+            .working_modes()
+            .into_par_iter()
+            .map(|mode| mode_curves(&sheet(mode), &grid, &joint_axes))
+            .collect();
         Self { robot, pose_axes, joint_axes, classes, curves }
     }
 

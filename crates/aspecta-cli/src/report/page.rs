@@ -60,7 +60,7 @@ fn summary(analysis: &Analysis) -> Markup {
         "An aspect is a largest domain in which the robot can move without meeting a singularity and without changing the \
          solution of its inverse model. Of the " (size_word(analysis)) " where aspects can be, "
         (format!("{share:.2}")) " % is undecided at this resolution"
-        @if count.high.is_none() { "; further aspects could only hide there, so no upper bound is proved" }
+        @if count.high.is_none() { "; the undecided cells may hide or separate further aspects, so no upper bound is proved" }
         "."
     }
 }
@@ -218,7 +218,8 @@ fn certified_section() -> Markup {
                       the modes said to be reachable or not; the bounds of the W-aspects." }
                 dt { "Undecided" }
                 dd { "Grey cells: whether they belong to an aspect is not decided at this resolution. They lie along the boundaries; a larger \
-                      budget makes them thinner. Where cells are finer than the picture, a pixel with an undecided part is drawn grey." }
+                      budget makes them thinner. Where cells are finer than the picture, a pixel shows the first it holds of: undecided, aspect, \
+                      nothing." }
                 dt { "Numerical" }
                 dd { "Computed in ordinary floating point and proved by nothing: the singular curves, the Q-aspects (images of the cells), \
                       postures and drawings, the smoothed surfaces of the 3-D view, the counts of Definitions 5 and 6." }

@@ -27,7 +27,7 @@ pub fn legs(analysis: &Analysis) -> Markup {
                 td { (lengths(leg)) }
                 td { @if leg.limits.is_empty() { "none" } @else { (leg.limits.len()) } }
                 td { (report.postures) }
-                td { @if report.cuspidal { "yes: " } @else { "no: " } (report.reason) }
+                td.reason { @if report.cuspidal { "yes: " } @else { "no: " } (report.reason) }
             } } }
         }
     }
