@@ -116,7 +116,7 @@ fn aspects(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
     let right = |name: &str| (name.to_owned(), Align::Right);
     let left = |name: &str| (name.to_owned(), Align::Left);
     let names =
-        [right("aspect"), left("mode"), left("det A"), right(measure_name(&analysis.robot)), right("pieces")];
+        [right("id"), left("mode"), left("det A"), right(measure_name(&analysis.robot)), right("pieces")];
     let vectors = pose.headings().chain(joints.headings()).map(|name| (name, Align::Right));
     let mut table = Table::new(names.into_iter().chain(vectors));
     for (class, aspect) in all.iter().take(LISTED) {
