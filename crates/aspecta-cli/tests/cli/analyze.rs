@@ -53,7 +53,7 @@ fn check_sample(aspect: &Value, mode: &str, det_a: &str) {
 
 #[test]
 fn the_summary_has_both_tables_in_100_columns() {
-    for robot in ["five-bar --budget depth=8", "3-rrr --budget depth=5"] {
+    for robot in ["five-bar --budget depth=8", "3-rrr --budget depth=5", "spherical-3-rrr --budget depth=4"] {
         let text = stdout(&format!("analyze {robot}"));
         for words in
             ["Theorem 1", "Table 1", "Table 2", "Mf1", "number of generalized aspects", "Def. 5", "Def. 6"]
