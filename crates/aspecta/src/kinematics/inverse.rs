@@ -107,21 +107,25 @@ impl Robot {
     }
 
     pub(crate) fn check_pose(&self, pose: &[f64]) -> Result<(), KinematicsError> {
-        let names = self.platform.coordinates().iter().map(|c| c.name).collect::<Vec<_>>();
-        self.check_vector("pose", pose, &names.join(", "))
+        let names = || self.platform.coordinates().iter().map(|c| c.name.to_string()).collect();
+        self.check_vector("pose", pose, names)
     }
 
     pub(crate) fn check_joints(&self, q: &[f64]) -> Result<(), KinematicsError> {
-        let names = (1..=self.dof()).map(|k| format!("q{k}")).collect::<Vec<_>>();
-        self.check_vector("joint", q, &names.join(", "))
+        self.check_vector("joint", q, || (1..=self.dof()).map(|k| format!("q{k}")).collect())
     }
 
-    fn check_vector(&self, what: &'static str, v: &[f64], names: &str) -> Result<(), KinematicsError> {
+    fn check_vector(
+        &self,
+        what: &'static str,
+        v: &[f64],
+        names: impl Fn() -> Vec<String>,
+    ) -> Result<(), KinematicsError> {
         if v.len() != self.dof() {
             return Err(KinematicsError::Length {
                 robot: self.name.clone(),
                 what,
-                names: names.into(),
+                names: names().join(", "),
                 wanted: self.dof(),
                 found: v.len(),
             });

@@ -34,7 +34,7 @@ impl Jacobians {
     }
 }
 
-fn jacobians<const D: usize, const N: usize>(robot: &Robot, pose: &[f64], q: &[f64]) -> Jacobians {
+pub(super) fn jacobians<const D: usize, const N: usize>(robot: &Robot, pose: &[f64], q: &[f64]) -> Jacobians {
     let placement = Placement::<f64, D>::at(robot.platform, pose);
     let mut a = [[0.0; N]; N];
     let mut b = vec![0.0; N];

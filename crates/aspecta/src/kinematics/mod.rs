@@ -1,16 +1,22 @@
 //! Inverse and direct geometric models, Jacobians and singularities (section 2 of the paper).
 
+pub mod direct;
 mod inverse;
 mod jacobian;
 pub mod leg;
 pub mod limits;
 pub mod modal;
+mod out_of_reach;
 pub mod placement;
 pub mod segment;
+mod singularity;
 mod working_mode;
 
+pub use direct::{DirectSolutions, Poses};
 pub use inverse::LegSolutions;
 pub use jacobian::Jacobians;
+pub use out_of_reach::OutOfReach;
+pub use singularity::{SINGULAR, Singularity, State};
 pub use working_mode::{NotAMode, WorkingMode};
 
 use serde::Serialize;
@@ -80,4 +86,21 @@ pub enum KinematicsError {
         "the direct problem of `{0}` platforms is not available yet (it is for plane-point, plane-body and translating-body)"
     )]
     NoDirectModel(crate::robot::Platform),
+    /// The length of a strut must be positive.
+    #[error("joint coordinate {leg} is {value}, but leg {leg} is a strut, whose length must be positive")]
+    StrutLength {
+        /// Leg number, from 1.
+        leg: usize,
+        /// The value given.
+        value: f64,
+    },
+    /// With the actuators locked the platform can still move: infinitely many direct solutions.
+    #[error(
+        "robot `{robot}` has a self-motion at this joint vector: the platform can move with all actuators locked, \
+         so the direct solutions are infinitely many (or cannot be told from it in double precision)"
+    )]
+    SelfMotion {
+        /// Robot name.
+        robot: String,
+    },
 }

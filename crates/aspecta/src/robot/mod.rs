@@ -4,10 +4,14 @@
 //! a frame of its own at its anchor A_i, in which every kind of leg has a short equation
 //! ([`crate::kinematics::leg`]); the platform is the motion group that places the attachment points C_i.
 
+pub mod catalogue;
+mod file;
+mod frame;
 mod leg;
 mod platform;
 mod window;
 
+pub use file::{FileError, Mistake, Problem};
 pub use leg::{Actuator, BASE_FRAME, Frame, Leg, Limit, point};
 pub use platform::{Coordinate, Platform};
 pub use window::{Unbounded, Window};
@@ -69,28 +73,15 @@ impl Robot {
     /// [`RobotError`] if there is not one leg per degree of freedom, or if spherical legs and
     /// point-to-point legs are mixed up with the wrong platform.
     pub fn new(name: &str, platform: Platform, legs: Vec<Leg>) -> Result<Self, RobotError> {
-        let wanted = platform.dof();
-        if legs.len() != wanted {
-            return Err(RobotError::LegCount { platform, wanted, found: legs.len() });
-        }
-        for (k, leg) in legs.iter().enumerate() {
-            let spherical = matches!(leg.actuator, Actuator::Spherical { .. });
-            if spherical != (platform == Platform::TurningBody) {
-                return Err(RobotError::Mismatch {
-                    leg: k + 1,
-                    actuator: leg.actuator.kind(),
-                    platform,
-                    hint: "`spherical` legs and the `turning-body` platform go together, and with nothing else",
-                });
-            }
-        }
+        let kinds: Vec<_> = legs.iter().map(|leg| leg.actuator.kind()).collect();
+        check_legs(platform, &kinds)?;
         Ok(Self {
             name: name.into(),
             title: String::new(),
             source: String::new(),
             length_unit: "unit".into(),
             platform,
-            window: vec![None; wanted],
+            window: vec![None; platform.dof()],
             legs,
         })
     }
@@ -106,5 +97,24 @@ impl Robot {
         let arm = |l: &Leg| l.attachment.iter().map(|c| c.mid().powi(2)).sum::<f64>().sqrt();
         let arms = self.legs.iter().map(arm).fold(0.0, f64::max);
         if arms > 0.0 { arms } else { self.legs.iter().map(|l| l.actuator.size()).fold(0.0, f64::max) }
+    }
+}
+
+/// Whether legs of these kinds and the platform make a robot: one leg per degree of freedom, spherical legs for
+/// the turning body only.
+fn check_legs(platform: Platform, kinds: &[&'static str]) -> Result<(), RobotError> {
+    let wanted = platform.dof();
+    if kinds.len() != wanted {
+        return Err(RobotError::LegCount { platform, wanted, found: kinds.len() });
+    }
+    let fits = |kind: &str| (kind == "spherical") == (platform == Platform::TurningBody);
+    match kinds.iter().position(|kind| !fits(kind)) {
+        None => Ok(()),
+        Some(k) => Err(RobotError::Mismatch {
+            leg: k + 1,
+            actuator: kinds[k],
+            platform,
+            hint: "`spherical` legs and the `turning-body` platform go together, and with nothing else",
+        }),
     }
 }

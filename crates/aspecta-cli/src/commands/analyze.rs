@@ -1,0 +1,110 @@
+//! `aspecta analyze`: working modes and generalized aspects.
+
+use super::{budget, summary};
+use crate::failure::{Answer, Failure};
+use crate::input;
+use crate::output::{self, note};
+use aspecta::aspect::{Analysis, Options, analyze};
+use aspecta::paving::{Budget, Control, Progress, Stop};
+use aspecta_cli::report;
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::fs;
+use std::io::Write;
+use std::path::PathBuf;
+use std::process;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+/// Arguments of `analyze`.
+#[derive(Args)]
+pub struct Analyze {
+    /// Name from `aspecta robots`, or path of a robot file
+    robot: String,
+    /// Print the whole result as JSON, and nothing else, on stdout (angles in radians)
+    #[arg(long)]
+    json: bool,
+    /// Write report.html and its figures into this directory
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// When to stop, whatever comes first: 30s | 5min | 2e6boxes | depth=9 | res=0.1, separated by commas
+    #[arg(long, value_parser = budget::parse, allow_hyphen_values = true)]
+    budget: Option<Budget>,
+    /// Number of threads [default: all cores]; the result does not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+}
+
+impl Analyze {
+    pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
+        let robot = input::robot(&self.robot)?;
+        if let Some(directory) = &self.out {
+            // Before the long work, not after it.
+            fs::create_dir_all(directory).map_err(|e| self.no_directory(&e))?;
+        }
+        if let Some(threads) = self.threads {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
+            pool.map_err(|e| Failure::Input(format!("--threads {threads}: {e}")))?;
+        }
+        watch_interrupts()?;
+        let bar = progress_bar();
+        let show = |p: Progress| {
+            bar.set_length(p.total);
+            bar.set_position(p.done);
+            bar.set_message(p.stage);
+        };
+        let options = Options { budget: self.budget.unwrap_or_default() };
+        let analysis = analyze(&robot, &options, &Control { cancelled: &CANCELLED, progress: &show })?;
+        bar.finish_and_clear();
+        self.print(out, &analysis)?;
+        if analysis.run.stop == Stop::Cancelled {
+            note("cancelled: this is the result so far");
+        }
+        Ok(Answer::from(analysis.run.stop != Stop::Cancelled))
+    }
+
+    fn print(&self, out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
+        if self.json {
+            output::json(out, analysis)?;
+        } else {
+            summary::print(out, analysis)?;
+        }
+        let Some(directory) = &self.out else { return Ok(()) };
+        // People see the numbers while the figures are drawn.
+        out.flush()?;
+        report::write(analysis, directory).map_err(|e| self.no_directory(&e))?;
+        let written = format!("report: {}", directory.join("report.html").display());
+        if self.json {
+            note(&written);
+        } else {
+            writeln!(out, "{written}")?;
+        }
+        Ok(())
+    }
+
+    fn no_directory(&self, e: &dyn std::error::Error) -> Failure {
+        let directory = self.out.as_deref().unwrap_or_else(|| ".".as_ref());
+        Failure::Input(format!("--out {}: {e}", directory.display()))
+    }
+}
+
+static CANCELLED: AtomicBool = AtomicBool::new(false);
+
+/// The first Ctrl-C asks the work to stop and keep its result, the second ends the program.
+fn watch_interrupts() -> Result<(), Failure> {
+    let interrupted = || {
+        if CANCELLED.swap(true, Ordering::Relaxed) {
+            process::exit(130);
+        }
+        note("stopping; again to quit at once");
+    };
+    ctrlc::set_handler(interrupted).map_err(|e| Failure::Input(format!("cannot watch for Ctrl-C: {e}")))
+}
+
+/// On stderr, and only if that is a terminal.
+fn progress_bar() -> ProgressBar {
+    let style = ProgressStyle::with_template("{spinner} {elapsed} {wide_bar} {percent:>3} % {msg}");
+    let bar = ProgressBar::new(1).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    bar.enable_steady_tick(Duration::from_millis(200));
+    bar
+}

@@ -1,0 +1,55 @@
+//! The subcommands, one file each.
+
+mod analyze;
+mod budget;
+mod check;
+mod completions;
+mod fk;
+mod ik;
+mod queries;
+mod robots;
+mod schema;
+mod solutions;
+mod state;
+mod summary;
+
+use crate::failure::{Answer, Failure};
+use clap::Subcommand;
+use std::io::Write;
+
+/// What `aspecta` can do.
+#[derive(Subcommand)]
+pub enum Command {
+    /// Working modes and generalized aspects of a robot, with certified bounds on their number
+    Analyze(analyze::Analyze),
+    /// All inverse solutions of a pose, one per working mode
+    Ik(ik::Ik),
+    /// All direct solutions of a joint vector
+    Fk(fk::Fk),
+    /// Jacobians, working mode and nearness to singularities of a configuration
+    State(state::State),
+    /// List the robots of the catalogue, or show one's file
+    Robots(robots::Robots),
+    /// Check a robot file
+    Check(check::Check),
+    /// Print the JSON Schema of robot files
+    Schema(schema::Schema),
+    /// Print a shell's completion script
+    Completions(completions::Completions),
+}
+
+impl Command {
+    /// Runs it, results going to `out`.
+    pub fn run(self, out: &mut dyn Write) -> Result<Answer, Failure> {
+        match self {
+            Self::Analyze(command) => command.run(out),
+            Self::Ik(command) => command.run(out),
+            Self::Fk(command) => command.run(out),
+            Self::State(command) => command.run(out),
+            Self::Robots(command) => command.run(out),
+            Self::Check(command) => command.run(out),
+            Self::Schema(command) => command.run(out),
+            Self::Completions(command) => command.run(out),
+        }
+    }
+}

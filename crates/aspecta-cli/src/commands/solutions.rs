@@ -1,0 +1,168 @@
+//! Prints the solutions of `ik` and `fk`.
+
+use super::queries::{Labels, Query, det_a_unit};
+use crate::failure::Failure;
+use crate::input::Columns;
+use crate::output::{Align, FORMAT_VERSION, Format, Table, exact, json, number};
+use aspecta::kinematics::Solution;
+use aspecta::robot::Robot;
+use serde::Serialize;
+use std::io::Write;
+
+/// Which of a solution's vectors was asked for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Unknown {
+    /// The joint vector: `ik`.
+    Joints,
+    /// The pose: `fk`.
+    Pose,
+}
+
+/// A vector asked about and its solutions.
+pub struct Found {
+    /// The question.
+    pub query: Query,
+    /// The answers.
+    pub solutions: Vec<Solution>,
+    /// Of a direct problem: whether these are proved to be all.
+    pub complete: Option<bool>,
+}
+
+/// Prints all answers.
+pub fn print(
+    out: &mut dyn Write,
+    robot: &Robot,
+    unknown: Unknown,
+    found: &[Found],
+    format: Format,
+    degrees: bool,
+) -> Result<(), Failure> {
+    match format {
+        Format::Json => print_json(out, robot, unknown, found),
+        Format::Csv => print_csv(out, robot, found),
+        Format::Table => print_table(out, robot, unknown, found, degrees),
+    }
+}
+
+#[derive(Serialize)]
+struct One<'a> {
+    format_version: u32,
+    robot: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    complete: Option<bool>,
+    solutions: &'a [Solution],
+}
+
+#[derive(Serialize)]
+struct Many<'a> {
+    format_version: u32,
+    robot: &'a str,
+    results: Vec<Answered<'a>>,
+}
+
+/// `pose` for `ik`, `q` for `fk`: the vector asked about.
+#[derive(Serialize)]
+struct Answered<'a> {
+    line: u64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pose: Option<&'a [f64]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    q: Option<&'a [f64]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    complete: Option<bool>,
+    solutions: &'a [Solution],
+}
+
+fn print_json(out: &mut dyn Write, robot: &Robot, unknown: Unknown, found: &[Found]) -> Result<(), Failure> {
+    let format_version = FORMAT_VERSION;
+    let robot = &robot.name;
+    if let [Found { query: Query { line: None, .. }, solutions, complete }] = found {
+        return json(out, &One { format_version, robot, complete: *complete, solutions });
+    }
+    let results = found.iter().map(|f| {
+        let given = Some(f.query.values.as_slice());
+        let (pose, q) = if unknown == Unknown::Joints { (given, None) } else { (None, given) };
+        let line = f.query.line.unwrap_or_default();
+        Answered { line, pose, q, complete: f.complete, solutions: &f.solutions }
+    });
+    json(out, &Many { format_version, robot, results: results.collect() })
+}
+
+fn print_csv(out: &mut dyn Write, robot: &Robot, found: &[Found]) -> Result<(), Failure> {
+    let mut csv = csv::Writer::from_writer(out);
+    let names = Columns::pose(robot).and(&Columns::joints(robot)).names;
+    let labels = ["mode", "det_a", "residual", "certified", "within_limits"].map(String::from);
+    csv.write_record(["line".to_owned()].into_iter().chain(names).chain(labels))?;
+    for f in found {
+        let line = f.query.line.map_or(String::new(), |l| l.to_string());
+        for s in &f.solutions {
+            let numbers = s.pose.iter().chain(&s.q).map(|x| exact(*x));
+            let labels = [
+                s.mode.to_string(),
+                exact(s.det_a),
+                exact(s.residual),
+                s.certified.to_string(),
+                s.within_limits.to_string(),
+            ];
+            csv.write_record([line.clone()].into_iter().chain(numbers).chain(labels))?;
+        }
+    }
+    csv.flush()?;
+    Ok(())
+}
+
+fn print_table(
+    out: &mut dyn Write,
+    robot: &Robot,
+    unknown: Unknown,
+    found: &[Found],
+    degrees: bool,
+) -> Result<(), Failure> {
+    let (pose, joints) = (Labels::pose(robot, degrees), Labels::joints(robot, degrees));
+    let (given, wanted, model) =
+        if unknown == Unknown::Joints { (&pose, &joints, "inverse") } else { (&joints, &pose, "direct") };
+    let total: usize = found.iter().map(|f| f.solutions.len()).sum();
+    let solutions = format!("{total} {model} solution{}", if total == 1 { "" } else { "s" });
+    match found {
+        [Found { query: query @ Query { line: None, .. }, .. }] => {
+            writeln!(out, "{}: {solutions} at {}", robot.name, given.sentence(&query.values))?;
+        }
+        _ => writeln!(out, "{}: {solutions} of {} rows", robot.name, found.len())?,
+    }
+    if total == 0 {
+        return Ok(());
+    }
+    let numbered = found.iter().any(|f| f.query.line.is_some());
+    let right = |name: String| (name, Align::Right);
+    let mut headings = Vec::new();
+    if numbered {
+        headings.push(right("line".into()));
+    }
+    headings.push(("mode".into(), Align::Left));
+    headings.extend(wanted.headings().map(right));
+    headings.push(right(format!("det A{}", det_a_unit(robot))));
+    headings.push(right("residual".into()));
+    headings.push(("certified".into(), Align::Left));
+    headings.push(("limits".into(), Align::Left));
+    let mut table = Table::new(headings);
+    for f in found {
+        for s in &f.solutions {
+            let unknowns = if unknown == Unknown::Joints { &s.q } else { &s.pose };
+            let line = f.query.line.map(|l| l.to_string());
+            let labels = [
+                number(s.det_a),
+                format!("{:.0e}", s.residual),
+                if s.certified { "yes" } else { "no" }.into(),
+                if s.within_limits { "within" } else { "beyond" }.into(),
+            ];
+            table.row(
+                line.into_iter().chain([s.mode.to_string()]).chain(wanted.numbers(unknowns)).chain(labels),
+            );
+        }
+    }
+    write!(out, "{table}")?;
+    if found.iter().any(|f| f.complete == Some(false)) {
+        writeln!(out, "not proved to be all solutions: two are too close to be told apart")?;
+    }
+    Ok(())
+}

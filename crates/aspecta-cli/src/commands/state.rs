@@ -1,0 +1,234 @@
+//! `aspecta state`: where a configuration stands among working modes and singularities.
+
+use super::queries::{Labels, Query, det_a_unit, out_of_reach, queries};
+use crate::failure::{Answer, Failure};
+use crate::input::{self, Columns};
+use crate::output::{Align, FORMAT_VERSION, Format, FormatArgs, Table, exact, json, note, number};
+use aspecta::kinematics::{self, WorkingMode};
+use aspecta::robot::Robot;
+use clap::Args;
+use serde::Serialize;
+use std::io::Write;
+
+/// A residual above this says that pose and joint vector do not belong together (rounded input has less).
+const NOT_CLOSED: f64 = 1e-3;
+
+/// Arguments of `state`.
+#[derive(Args)]
+pub struct State {
+    /// Name from `aspecta robots`, or path of a robot file
+    robot: String,
+    #[command(flatten)]
+    input: Input,
+    /// The joint vector, one number per leg; without it, the inverse solutions of the pose
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true, conflicts_with_all = ["file", "mode"])]
+    q: Option<String>,
+    /// Only the inverse solution in this working mode, such as `+-`
+    #[arg(long, allow_hyphen_values = true)]
+    mode: Option<String>,
+    /// Angles of the input and of the table are in degrees
+    #[arg(long)]
+    deg: bool,
+    #[command(flatten)]
+    format: FormatArgs,
+}
+
+#[derive(Args)]
+#[group(required = true, multiple = false)]
+struct Input {
+    /// The pose: x,y | x,y,phi | x,y,z | roll,pitch,yaw | x,y,z,roll,pitch,yaw
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
+    pose: Option<String>,
+    /// A CSV file of poses, or of poses and joint vectors, one a line; `-` reads stdin
+    #[arg(long, value_name = "CSV")]
+    file: Option<String>,
+}
+
+/// A configuration, or pose, asked about and its states.
+struct Found {
+    query: Query,
+    states: Vec<kinematics::State>,
+}
+
+impl State {
+    pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
+        let robot = input::robot(&self.robot)?;
+        let mode = self.mode.as_deref().map(|m| input::mode(&robot, m)).transpose()?;
+        let pose = Columns::pose(&robot);
+        let joints = Columns::joints(&robot);
+        let q = self.q.as_deref().map(|q| input::list("--q", q, &joints, self.deg)).transpose()?;
+        let layouts = [pose.clone().and(&joints), pose];
+        // A list is a pose alone, a row of a file may be either.
+        let layouts = if self.input.pose.is_some() { &layouts[1..] } else { &layouts[..] };
+        let (pose, file) = (self.input.pose.as_deref(), self.input.file.as_deref());
+        let mut found = Vec::new();
+        for query in queries("--pose", pose, file, layouts, self.deg)? {
+            let states = states(&robot, &query, q.as_deref(), mode)?;
+            found.push(Found { query, states });
+        }
+        match self.format.format() {
+            Format::Json => print_json(out, &robot, &found)?,
+            Format::Csv => print_csv(out, &robot, &found)?,
+            Format::Table => print_table(out, &robot, &found, self.deg)?,
+        }
+        Ok(Answer::from(found.iter().all(sound)))
+    }
+}
+
+/// The state at the joints given, or at each inverse solution (in `mode`, if given).
+fn states(
+    robot: &Robot,
+    query: &Query,
+    q: Option<&[f64]>,
+    mode: Option<WorkingMode>,
+) -> Result<Vec<kinematics::State>, Failure> {
+    let n = robot.dof();
+    let (pose, given) = match q {
+        Some(q) => (query.values.as_slice(), q),
+        None => query.values.split_at(query.values.len().min(n)),
+    };
+    if q.is_some() || !given.is_empty() {
+        return Ok(vec![robot.state(pose, given)?]);
+    }
+    let solutions = robot.inverse(pose)?;
+    if solutions.is_empty() {
+        let why = out_of_reach(robot, pose)?;
+        let Some(line) = query.line else { return Err(Failure::Input(format!("the pose is {why}"))) };
+        note(&format!("line {line}: {why}"));
+    }
+    let wanted = solutions.iter().filter(|s| mode.is_none_or(|m| s.mode == m));
+    Ok(wanted.map(|s| robot.state(pose, &s.q)).collect::<Result<_, _>>()?)
+}
+
+/// Whether there are states and all are configurations; says so if not.
+fn sound(found: &Found) -> bool {
+    let place = found.query.line.map_or(String::new(), |line| format!("line {line}: "));
+    let open = found.states.iter().find(|s| s.residual.is_nan() || s.residual > NOT_CLOSED);
+    if let Some(state) = open {
+        note(&format!(
+            "{place}pose and joints are no configuration of the robot: the leg equations are off by {:.1e} \
+             of the legs' lengths squared",
+            state.residual
+        ));
+    }
+    open.is_none() && !found.states.is_empty()
+}
+
+#[derive(Serialize)]
+struct One<'a> {
+    format_version: u32,
+    robot: &'a str,
+    states: &'a [kinematics::State],
+}
+
+#[derive(Serialize)]
+struct Many<'a> {
+    format_version: u32,
+    robot: &'a str,
+    results: Vec<Answered<'a>>,
+}
+
+#[derive(Serialize)]
+struct Answered<'a> {
+    line: u64,
+    states: &'a [kinematics::State],
+}
+
+fn print_json(out: &mut dyn Write, robot: &Robot, found: &[Found]) -> Result<(), Failure> {
+    let format_version = FORMAT_VERSION;
+    let robot = &robot.name;
+    if let [Found { query: Query { line: None, .. }, states }] = found {
+        return json(out, &One { format_version, robot, states });
+    }
+    let results =
+        found.iter().map(|f| Answered { line: f.query.line.unwrap_or_default(), states: &f.states });
+    json(out, &Many { format_version, robot, results: results.collect() })
+}
+
+fn print_csv(out: &mut dyn Write, robot: &Robot, found: &[Found]) -> Result<(), Failure> {
+    let mut csv = csv::Writer::from_writer(out);
+    let names = Columns::pose(robot).and(&Columns::joints(robot)).names;
+    let labels = ["mode", "singularity", "det_a", "det_b", "condition_a", "condition_b", "parallel_measure"];
+    let serial = (1..=robot.dof()).map(|k| format!("serial_measure_{k}"));
+    let first = ["line".to_owned()].into_iter();
+    csv.write_record(
+        first.chain(names).chain(labels.map(String::from)).chain(serial).chain(["residual".into()]),
+    )?;
+    for f in found {
+        let line = f.query.line.map_or(String::new(), |l| l.to_string());
+        for s in &f.states {
+            let mode = s.mode.map_or(String::new(), |m| m.to_string());
+            let labels = [mode, s.singularity.name().into()];
+            let measures = [s.det_a, s.det_b, s.condition_a, s.condition_b, s.parallel_measure];
+            let numbers = measures.iter().chain(&s.serial_measures).chain([&s.residual]).map(|x| exact(*x));
+            let vectors = s.pose.iter().chain(&s.q).map(|x| exact(*x));
+            csv.write_record([line.clone()].into_iter().chain(vectors).chain(labels).chain(numbers))?;
+        }
+    }
+    csv.flush()?;
+    Ok(())
+}
+
+fn print_table(out: &mut dyn Write, robot: &Robot, found: &[Found], degrees: bool) -> Result<(), Failure> {
+    if let [Found { query: Query { line: None, values }, states }] = found {
+        writeln!(out, "{} at {}", robot.name, Labels::pose(robot, degrees).sentence(values))?;
+        return states.iter().try_for_each(|s| print_one(out, robot, s, degrees, states.len() == 1));
+    }
+    let right = ["line", "mode", "det A", "cond. A", "cond. B", "to parallel", "to serial"];
+    let headings = right.map(|name| (name.to_owned(), Align::Right));
+    let mut table = Table::new(headings.into_iter().chain([("singularity".to_owned(), Align::Left)]));
+    for f in found {
+        for s in &f.states {
+            let serial = s.serial_measures.iter().copied().fold(f64::INFINITY, f64::min);
+            let numbers = [s.det_a, s.condition_a, s.condition_b, s.parallel_measure, serial].map(number);
+            let line = f.query.line.unwrap_or_default().to_string();
+            let mode = s.mode.map_or("-".into(), |m| m.to_string());
+            table.row([line, mode].into_iter().chain(numbers).chain([s.singularity.name().into()]));
+        }
+    }
+    write!(out, "{table}")?;
+    Ok(())
+}
+
+/// One state as a paragraph, with A and B if `matrices`.
+fn print_one(
+    out: &mut dyn Write,
+    robot: &Robot,
+    s: &kinematics::State,
+    degrees: bool,
+    matrices: bool,
+) -> Result<(), Failure> {
+    let mode = s.mode.map_or("none (serial singularity)".into(), |m| m.to_string());
+    writeln!(out, "\nworking mode  {mode}")?;
+    writeln!(out, "joints        {}", Labels::joints(robot, degrees).sentence(&s.q))?;
+    writeln!(
+        out,
+        "det A         {}{}, condition {}",
+        number(s.det_a),
+        det_a_unit(robot),
+        number(s.condition_a)
+    )?;
+    writeln!(out, "det B         {}, condition {}", number(s.det_b), number(s.condition_b))?;
+    writeln!(
+        out,
+        "to parallel   {} (smallest singular value of the homogeneous A)",
+        number(s.parallel_measure)
+    )?;
+    let serial: Vec<_> = s.serial_measures.iter().map(|m| number(*m)).collect();
+    writeln!(out, "to serial     {} (|B_jj| / max, per leg)", serial.join(", "))?;
+    let legs: Vec<_> = s.serial_legs.iter().map(usize::to_string).collect();
+    let which = if legs.is_empty() {
+        String::new()
+    } else {
+        format!(", legs in serial singularity: {}", legs.join(", "))
+    };
+    writeln!(out, "singularity   {} (measures ≤ {:e}){which}", s.singularity.name(), s.tolerance)?;
+    writeln!(out, "residual      {:.1e}", s.residual)?;
+    if matrices {
+        for (j, (row, b)) in s.a.iter().zip(&s.b).enumerate() {
+            let row: Vec<_> = row.iter().map(|x| number(*x)).collect();
+            writeln!(out, "leg {:<2}        A: {}    B: {}", j + 1, row.join("  "), number(*b))?;
+        }
+    }
+    Ok(())
+}

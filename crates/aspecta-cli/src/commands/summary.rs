@@ -1,0 +1,208 @@
+//! The result of an analysis for people, in 100 columns.
+
+use super::queries::Labels;
+use crate::failure::Failure;
+use crate::output::{Align, Table, brief};
+use aspecta::aspect::{Analysis, Aspect, AspectClass, DetSign, EarlierAspects, Reachable};
+use aspecta::paving::Stop;
+use aspecta::robot::Robot;
+use std::io::Write;
+
+/// Columns of the terminal that the summary is made for.
+const WIDTH: usize = 100;
+/// Aspects listed; the rest is in the JSON.
+const LISTED: usize = 40;
+
+/// Prints what was found: Theorem 1, Tables 1 and 2, the number of aspects, the aspects, Definitions 5 and 6.
+pub fn print(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
+    let robot = &analysis.robot;
+    let title = if robot.title.is_empty() { String::new() } else { format!(": {}", robot.title) };
+    paragraph(out, &format!("{}{title} ({}, {} legs)", robot.name, robot.platform, robot.dof()))?;
+    theorem_1(out, analysis)?;
+    table_1(out, analysis)?;
+    table_2(out, analysis)?;
+    aspects(out, analysis)?;
+    writeln!(out)?;
+    paragraph(out, &earlier("Def. 5, parallel aspects", &analysis.parallel_aspects, robot))?;
+    paragraph(out, &earlier("Def. 6, serial aspects", &analysis.serial_aspects, robot))?;
+    writeln!(out)?;
+    paragraph(out, &run(analysis))
+}
+
+fn paragraph(out: &mut dyn Write, text: &str) -> Result<(), Failure> {
+    let options = textwrap::Options::new(WIDTH).subsequent_indent("  ");
+    Ok(writeln!(out, "{}", textwrap::fill(text, options))?)
+}
+
+/// One line for all legs of the same answer.
+fn theorem_1(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
+    let holds = analysis.legs.iter().all(|l| !l.cuspidal && l.postures <= 2);
+    let verdict = if holds { "separate" } else { "do not separate" };
+    writeln!(out, "\nTheorem 1: working modes {verdict} the inverse solutions")?;
+    for same in analysis
+        .legs
+        .chunk_by(|a, b| (a.actuator, a.cuspidal, a.reason) == (b.actuator, b.cuspidal, b.reason))
+    {
+        let (first, last) = (&same[0], &same[same.len() - 1]);
+        let legs = if same.len() == 1 {
+            format!("leg {}", first.leg)
+        } else {
+            format!("legs {}-{}", first.leg, last.leg)
+        };
+        let cuspidal = if first.cuspidal { "cuspidal" } else { "not cuspidal" };
+        paragraph(out, &format!("  {legs} ({}): {cuspidal}: {}", first.actuator, first.reason))?;
+    }
+    Ok(())
+}
+
+fn table_1(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
+    writeln!(out, "\nTable 1: working modes (Def. 7)")?;
+    let labels = Labels::pose(&analysis.robot, false);
+    let signs = (1..=analysis.robot.dof()).map(|j| (format!("B_{j}{j}"), Align::Left));
+    let last = [("reachable".into(), Align::Left), ("for example at".into(), Align::Left)];
+    let mut table = Table::new([("mode".to_owned(), Align::Left)].into_iter().chain(signs).chain(last));
+    for report in &analysis.modes {
+        let signs = report.mode.signs().map(|s| if s > 0 { " +" } else { " -" }.to_owned());
+        let reachable = match report.reachable {
+            Reachable::Yes => "yes",
+            Reachable::No => "no",
+            Reachable::Undecided => "undecided",
+        };
+        let example = report.sample.as_ref().map_or(String::new(), |s| labels.brief(&s.pose));
+        let number = format!("Mf{}", report.number);
+        table.row([number].into_iter().chain(signs).chain([reachable.into(), example]));
+    }
+    Ok(write!(out, "{table}")?)
+}
+
+fn table_2(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
+    writeln!(
+        out,
+        "\nTable 2: generalized aspects (Def. 8), {} in {}",
+        measure_name(&analysis.robot),
+        unit(&analysis.robot)
+    )?;
+    let signs = (1..=analysis.robot.dof()).map(|j| (format!("B_{j}{j}"), Align::Left));
+    let numbers = ["aspects", "certified inside", "undecided", "undecided share"];
+    let numbers = numbers.map(|name| (name.to_owned(), Align::Right));
+    let mut table = Table::new([("det A".to_owned(), Align::Left)].into_iter().chain(signs).chain(numbers));
+    // The paper's order: all modes with det A > 0, then all with det A < 0.
+    for det_a in [DetSign::Positive, DetSign::Negative] {
+        for class in analysis.classes.iter().filter(|c| c.det_a == det_a) {
+            let signs = class.mode.signs().map(|s| if s > 0 { " +" } else { " -" }.to_owned());
+            let numbers =
+                [bounds(class.low, class.high), brief(class.measure), brief(class.undecided), share(class)];
+            table.row([format!("  {det_a}")].into_iter().chain(signs).chain(numbers));
+        }
+    }
+    write!(out, "{table}")?;
+    let count = &analysis.aspects;
+    let total = match count.high {
+        Some(high) if high == count.low => format!("certified: exactly {high}"),
+        Some(high) => format!("certified: at least {} and at most {high}", count.low),
+        None => format!("certified: at least {}; no upper bound is proved at this resolution", count.low),
+    };
+    Ok(writeln!(out, "number of generalized aspects, {total}")?)
+}
+
+fn aspects(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
+    let all: Vec<(&AspectClass, &Aspect)> =
+        analysis.classes.iter().flat_map(|c| c.aspects.iter().map(move |a| (c, a))).collect();
+    if all.is_empty() {
+        return Ok(());
+    }
+    writeln!(out, "\nAspects, each with a configuration inside")?;
+    let (pose, joints) = (Labels::pose(&analysis.robot, false), Labels::joints(&analysis.robot, false));
+    let right = |name: &str| (name.to_owned(), Align::Right);
+    let left = |name: &str| (name.to_owned(), Align::Left);
+    let names =
+        [right("id"), left("mode"), left("det A"), right(measure_name(&analysis.robot)), right("pieces")];
+    let vectors = pose.headings().chain(joints.headings()).map(|name| (name, Align::Right));
+    let mut table = Table::new(names.into_iter().chain(vectors));
+    for (class, aspect) in all.iter().take(LISTED) {
+        let first = [
+            aspect.id.to_string(),
+            class.mode.to_string(),
+            format!("  {}", class.det_a),
+            brief(aspect.measure),
+            aspect.pieces.to_string(),
+        ];
+        let vectors = aspect.sample.pose.iter().chain(&aspect.sample.q).map(|x| brief(*x));
+        table.row(first.into_iter().chain(vectors));
+    }
+    write!(out, "{table}")?;
+    if all.len() > LISTED {
+        writeln!(out, "  … and {} more: see --json or --out", all.len() - LISTED)?;
+    }
+    Ok(())
+}
+
+/// Definition 5 or 6 in a sentence.
+fn earlier(name: &str, sets: &[EarlierAspects], robot: &Robot) -> String {
+    let counts: Vec<_> = sets.iter().map(|s| format!("{} in {}", s.domains.len(), s.name)).collect();
+    let overlap = sets.iter().map(|s| s.overlap).fold(0.0, f64::max);
+    let verdict = if overlap > 0.0 {
+        format!(
+            "they overlap ({} of {}), so they do not separate the solutions",
+            measure_name(robot),
+            amount(overlap, robot)
+        )
+    } else {
+        "no overlap found".into()
+    };
+    format!("{name} (numerical): {}; {verdict}.", counts.join(", "))
+}
+
+fn run(analysis: &Analysis) -> String {
+    let run = &analysis.run;
+    let ended = match run.stop {
+        Stop::Resolution => "resolution reached",
+        Stop::Boxes => "box budget spent",
+        Stop::Time => "time budget spent",
+        Stop::Cancelled => "cancelled",
+    };
+    let coordinates = analysis.robot.platform.coordinates();
+    let widths = run.resolution.iter().zip(coordinates).map(|(w, c)| {
+        let unit = if c.angle { "rad" } else { &analysis.robot.length_unit };
+        format!("{} {unit}", brief(*w))
+    });
+    let cells = widths.collect::<Vec<_>>().join(" × ");
+    format!(
+        "{} boxes in {:.2} s, finest cells {cells} (depth {}): {ended}.",
+        run.boxes, run.seconds, run.depth
+    )
+}
+
+/// `n`, `n-m` or `≥ n`.
+fn bounds(low: usize, high: Option<usize>) -> String {
+    match high {
+        Some(high) if high == low => low.to_string(),
+        Some(high) => format!("{low}-{high}"),
+        None => format!("≥ {low}"),
+    }
+}
+
+fn share(class: &AspectClass) -> String {
+    let whole = class.measure + class.undecided;
+    if whole > 0.0 { format!("{:.2} %", 100.0 * class.undecided / whole) } else { "-".into() }
+}
+
+fn measure_name(robot: &Robot) -> &'static str {
+    if robot.dof() == 2 { "area" } else { "volume" }
+}
+
+fn amount(x: f64, robot: &Robot) -> String {
+    format!("{} {}", brief(x), unit(robot))
+}
+
+/// The unit of areas and volumes of the workspace.
+fn unit(robot: &Robot) -> String {
+    let power = |unit: &str, n: usize| match n {
+        0 => None,
+        1 => Some(unit.to_owned()),
+        n => Some(format!("{unit}^{n}")),
+    };
+    let angles = robot.platform.coordinates().iter().filter(|c| c.angle).count();
+    let parts = [power(&robot.length_unit, robot.dof() - angles), power("rad", angles)];
+    parts.into_iter().flatten().collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,58 @@
+//! How a command ends.
+
+use aspecta::aspect::AnalysisError;
+use aspecta::kinematics::KinematicsError;
+use aspecta::robot::FileError;
+use std::io;
+
+/// What a command that ran found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Answer {
+    /// Exit status 0.
+    Yes,
+    /// The answer is negative or undecided: exit status 1.
+    No,
+}
+
+impl Answer {
+    /// `Yes` if `found`.
+    pub fn from(found: bool) -> Self {
+        if found { Self::Yes } else { Self::No }
+    }
+}
+
+/// Why a command could not run: exit status 2, after the message on stderr.
+#[derive(Debug, thiserror::Error)]
+pub enum Failure {
+    /// What the user gave cannot be used; the message says where and what would do.
+    #[error("{0}")]
+    Input(String),
+    /// The robot file.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// It does not fit the robot.
+    #[error(transparent)]
+    Kinematics(#[from] KinematicsError),
+    /// It cannot be analysed.
+    #[error(transparent)]
+    Analysis(#[from] AnalysisError),
+    /// Results cannot be written.
+    #[error("cannot write the results: {0}")]
+    Output(#[from] io::Error),
+}
+
+impl From<serde_json::Error> for Failure {
+    fn from(e: serde_json::Error) -> Self {
+        Self::Output(e.into())
+    }
+}
+
+impl From<csv::Error> for Failure {
+    fn from(e: csv::Error) -> Self {
+        // The conversion of the csv crate hides the kind, and with it a broken pipe.
+        match e.into_kind() {
+            csv::ErrorKind::Io(e) => Self::Output(e),
+            other => Self::Output(io::Error::other(format!("{other:?}"))),
+        }
+    }
+}

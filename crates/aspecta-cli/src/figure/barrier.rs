@@ -1,0 +1,70 @@
+//! The functions whose zeros bound the aspects of a working mode, in plain f64 (*numerical*).
+//!
+//! The same [`eliminate`] as in the proofs gives them, with h = √max(H, 0): so they go on continuously
+//! beyond the reach of the legs, and a contour meets the boundary H = 0 without a gap.
+
+use aspecta::kinematics::WorkingMode;
+use aspecta::kinematics::leg::{Drive, drive, eliminate};
+use aspecta::kinematics::limits::{LegAt, margin};
+use aspecta::kinematics::placement::{Placement, determinant, out_of_frame, wrench};
+use aspecta::robot::{Platform, Robot};
+
+/// What bounds an aspect.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Kind {
+    /// B_jj = 0 (Definition 4).
+    Serial,
+    /// det A = 0 in the mode (Definition 3).
+    Parallel,
+    /// A joint limit.
+    Limit,
+}
+
+/// All barriers of a mode at a pose; an aspect is where every `margins` entry is positive and det A keeps its
+/// sign.
+#[derive(Clone, Debug)]
+pub struct Barriers {
+    /// A positive multiple of det A(X, g_s(X)).
+    pub det: f64,
+    /// The reach H_j of each leg (none for struts), then the margin of each joint limit.
+    pub margins: Vec<(Kind, f64)>,
+    /// q = g_s(X), also on the boundary; angles in (−π, π].
+    pub q: Vec<f64>,
+}
+
+impl Barriers {
+    /// The barriers at `pose`, which must have the robot's number of coordinates.
+    pub fn at(robot: &Robot, mode: WorkingMode, pose: &[f64]) -> Self {
+        match robot.platform {
+            Platform::PlanePoint => barriers::<2, 2>(robot, mode, pose),
+            Platform::PlaneBody => barriers::<2, 3>(robot, mode, pose),
+            Platform::TranslatingBody | Platform::TurningBody => barriers::<3, 3>(robot, mode, pose),
+            Platform::FreeBody => barriers::<3, 6>(robot, mode, pose),
+        }
+    }
+}
+
+fn barriers<const D: usize, const N: usize>(robot: &Robot, mode: WorkingMode, pose: &[f64]) -> Barriers {
+    let placement = Placement::<f64, D>::at(robot.platform, pose);
+    let mut rows = [[0.0; N]; N];
+    let (mut reaches, mut limits, mut q) = (Vec::new(), Vec::new(), Vec::new());
+    for (j, leg) in robot.legs.iter().enumerate() {
+        let arm = placement.arm(leg);
+        let span = placement.span(leg, &arm);
+        let closure = eliminate(&leg.actuator, &span);
+        let at = LegAt { leg, span, closure, h: closure.reach.max(0.0).sqrt() };
+        let sh = f64::from(mode.sign(j)) * at.h;
+        let gradient: [f64; D] = std::array::from_fn(|k| closure.fixed[k] + sh * closure.swing[k]);
+        rows[j] = wrench(robot.platform, &out_of_frame(leg, &gradient), &arm);
+        if leg.actuator.postures() == 2 {
+            reaches.push((Kind::Serial, closure.reach));
+        }
+        limits.extend(leg.limits.iter().map(|l| (Kind::Limit, margin(l, &at, sh, &placement))));
+        q.push(match drive(&leg.actuator, &span, &closure, sh) {
+            Drive::Angle { cos, sin, .. } => sin.atan2(cos),
+            Drive::Length(q) => q,
+        });
+    }
+    reaches.append(&mut limits);
+    Barriers { det: determinant(&rows), margins: reaches, q }
+}

@@ -1,0 +1,170 @@
+//! The curves that bound the aspects of a mode in a plane slice of the pose space, and their images in Q.
+
+use super::barrier::{Barriers, Kind};
+use super::level::{Grid, contours, project};
+use aspecta::kinematics::WorkingMode;
+use aspecta::robot::Robot;
+
+/// A plane of poses: all coordinates fixed but two.
+#[derive(Clone, Debug)]
+pub struct Plane {
+    /// A pose in the plane.
+    pub through: Vec<f64>,
+    /// The two coordinates that vary.
+    pub axes: [usize; 2],
+}
+
+impl Plane {
+    /// The pose at a point of the plane.
+    pub fn pose(&self, p: [f64; 2]) -> Vec<f64> {
+        let mut pose = self.through.clone();
+        (pose[self.axes[0]], pose[self.axes[1]]) = (p[0], p[1]);
+        pose
+    }
+}
+
+/// A piece of the boundary of a mode's aspects.
+#[derive(Clone, Debug)]
+pub struct Curve {
+    /// Which function vanishes.
+    pub kind: Kind,
+    /// Points of the plane, each on the curve to about 1e-12 of the grid's width.
+    pub points: Vec<[f64; 2]>,
+    which: Which,
+}
+
+/// Which barrier: det A, or one of [`Barriers::margins`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Which {
+    Det,
+    Margin(usize),
+}
+
+/// A robot in a mode, over a plane.
+#[derive(Clone, Copy, Debug)]
+pub struct Sheet<'a> {
+    /// The robot.
+    pub robot: &'a Robot,
+    /// The working mode.
+    pub mode: WorkingMode,
+    /// The plane.
+    pub plane: &'a Plane,
+}
+
+impl Sheet<'_> {
+    /// The barriers at a point.
+    pub fn barriers(&self, p: [f64; 2]) -> Barriers {
+        Barriers::at(self.robot, self.mode, &self.plane.pose(p))
+    }
+
+    fn value(&self, which: Which, p: [f64; 2]) -> f64 {
+        let b = self.barriers(p);
+        match which {
+            Which::Det => b.det,
+            Which::Margin(k) => b.margins[k].1,
+        }
+    }
+
+    /// Whether p is within reach and limits, the barrier `except` aside.
+    fn allowed(&self, except: Which, p: [f64; 2]) -> bool {
+        self.barriers(p).margins.iter().enumerate().all(|(k, m)| Which::Margin(k) == except || m.1 >= 0.0)
+    }
+
+    /// All parts of the curves det A = 0, H_j = 0 and limit = 0 that lie within reach and limits of the mode.
+    ///
+    /// A grid finds the curves, so a loop smaller than a grid cell, or a zero without change of sign, is not seen.
+    pub fn curves(&self, grid: &Grid) -> Vec<Curve> {
+        let nodes = grid.sample(|p| self.barriers(p));
+        let Some(first) = nodes.first() else { return Vec::new() };
+        let margins = first.margins.iter().enumerate().map(|(k, m)| (m.0, Which::Margin(k)));
+        let mut found = Vec::new();
+        for (kind, which) in margins.chain([(Kind::Parallel, Which::Det)]) {
+            let value = |b: &Barriers| if let Which::Margin(k) = which { b.margins[k].1 } else { b.det };
+            let values: Vec<f64> = nodes.iter().map(value).collect();
+            for line in contours(grid, &values, |p| self.value(which, p)) {
+                found.extend(self.cut(which, &line).into_iter().map(|points| Curve { kind, points, which }));
+            }
+        }
+        found
+    }
+
+    /// The parts of a contour within reach and limits; where it crosses another barrier it ends on that barrier.
+    fn cut(&self, which: Which, line: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
+        let mut parts = Vec::new();
+        let mut part: Vec<[f64; 2]> = Vec::new();
+        let allowed: Vec<bool> = line.iter().map(|p| self.allowed(which, *p)).collect();
+        for k in 0..line.len() {
+            if k > 0 && allowed[k] != allowed[k - 1] {
+                part.extend(self.crossing(which, line[k - 1], line[k], allowed[k]));
+            }
+            if allowed[k] {
+                part.push(line[k]);
+            } else if !part.is_empty() {
+                parts.push(std::mem::take(&mut part));
+            }
+        }
+        parts.push(part);
+        parts.retain(|p| p.len() > 1);
+        parts
+    }
+
+    /// Where the curve between a and b enters (`entering`) or leaves the allowed region.
+    fn crossing(&self, which: Which, a: [f64; 2], b: [f64; 2], entering: bool) -> Option<[f64; 2]> {
+        let on_curve = |t: f64| project(a, b, t, &|p| self.value(which, p));
+        let (mut low, mut high, mut best) = (0.0, 1.0, None);
+        for _ in 0..40 {
+            let middle = 0.5 * (low + high);
+            let p = on_curve(middle)?;
+            let inside = self.allowed(which, p);
+            if inside {
+                best = Some(p);
+            }
+            if inside == entering { high = middle } else { low = middle }
+        }
+        best
+    }
+
+    /// The image g_s(curve) in Q, refined until no coordinate q_k steps by more than `step[k]`; angles are unwound, so that the line is
+    /// continuous and may leave (−π, π].
+    pub fn image(&self, curve: &Curve, step: &[f64]) -> Vec<Vec<f64>> {
+        let Some(&first) = curve.points.first() else { return Vec::new() };
+        let mut image = vec![self.barriers(first).q];
+        for pair in curve.points.windows(2) {
+            self.extend_image(curve.which, pair[0], pair[1], step, 12, &mut image);
+        }
+        image
+    }
+
+    fn extend_image(
+        &self,
+        which: Which,
+        a: [f64; 2],
+        b: [f64; 2],
+        step: &[f64],
+        depth: u32,
+        image: &mut Vec<Vec<f64>>,
+    ) {
+        let Some(last) = image.last() else { return };
+        let q = unwind(self.robot, self.barriers(b).q, last);
+        let far = (0..q.len()).any(|k| (q[k] - last[k]).abs() > step[k]);
+        if far
+            && depth > 0
+            && let Some(middle) = project(a, b, 0.5, &|p| self.value(which, p))
+        {
+            self.extend_image(which, a, middle, step, depth - 1, image);
+            self.extend_image(which, middle, b, step, depth - 1, image);
+            return;
+        }
+        image.push(q);
+    }
+}
+
+/// q with whole turns added to its angles so that each is within half a turn of `near`.
+pub fn unwind(robot: &Robot, mut q: Vec<f64>, near: &[f64]) -> Vec<f64> {
+    for ((x, n), leg) in q.iter_mut().zip(near).zip(&robot.legs) {
+        if leg.actuator.is_angle() {
+            *x += std::f64::consts::TAU * ((n - *x) / std::f64::consts::TAU).round();
+        }
+    }
+    q
+}

@@ -1,0 +1,18 @@
+//! Figures as standalone SVG: deterministic text, no external fonts or styles.
+//!
+//! What is *certified* in a figure is the colour of a cell (it lies in that aspect) and the white outside;
+//! grey cells are undecided. Singular curves, postures and Q-aspects are drawn in plain f64: *numerical*.
+
+pub mod axes;
+pub mod barrier;
+pub mod curves;
+pub mod image;
+pub mod level;
+pub mod maps;
+pub mod palette;
+pub mod raster;
+pub mod robot;
+mod skeleton;
+pub mod slices;
+pub mod survey;
+pub mod svg;

@@ -1,0 +1,336 @@
+//! Drawings of the robot: one pose, and every working mode's posture (figure 8).
+
+use super::axes::{Axis, Chart};
+use super::palette::INK;
+use super::skeleton::{LegShape, Point, Skeleton, minus, plus, times};
+use super::svg::{Anchor, Svg};
+use aspecta::aspect::{ModeReport, Reachable, Sample};
+use aspecta::robot::{Actuator, Platform, Robot};
+
+const BASE: &str = "#777";
+const CRANK: &str = "#0072b2";
+const ROD: &str = "#d55e00";
+const PLATFORM: &str = "#009e73";
+
+/// The robot at `sample`, with the names of its points, both frames and a legend.
+pub fn robot(robot: &Robot, sample: &Sample) -> String {
+    let (width, height) = (620.0, 520.0);
+    let mut svg = Svg::new("robot", width, height, &format!("Robot {} in a sample pose", robot.name));
+    let skeleton = Skeleton::at(robot, &sample.pose, &sample.q);
+    let view = View::fit(robot, &[&skeleton], [62.0, 28.0, width - 82.0, height - 108.0]);
+    view.backdrop(&mut svg, "", &robot.length_unit);
+    Drawing { robot, skeleton: &skeleton, view: &view, names: true }.draw(&mut svg);
+    legend(&mut svg, robot, [62.0, height - 14.0]);
+    svg.finish()
+}
+
+/// Figure 8: the posture of each working mode, in the sample configuration found in it.
+pub fn postures(robot: &Robot, modes: &[ModeReport]) -> String {
+    let columns = modes.len().min(4);
+    let rows = modes.len().div_ceil(columns.max(1));
+    let (cell_w, cell_h) = (270.0, 270.0);
+    let (width, height) = (20.0 + columns as f64 * cell_w, 24.0 + rows as f64 * cell_h);
+    let mut svg = Svg::new("postures", width, height, &format!("Working modes of robot {}", robot.name));
+    let skeletons: Vec<Option<Skeleton>> =
+        modes.iter().map(|m| m.sample.as_ref().map(|s| Skeleton::at(robot, &s.pose, &s.q))).collect();
+    let drawn: Vec<&Skeleton> = skeletons.iter().flatten().collect();
+    for (k, (report, skeleton)) in modes.iter().zip(&skeletons).enumerate() {
+        let (left, top) = (20.0 + (k % columns) as f64 * cell_w, 12.0 + (k / columns) as f64 * cell_h);
+        let title = format!("Mf{} ({})", report.number, signs(&report.mode.to_string()));
+        match skeleton {
+            Some(skeleton) => {
+                let view = View::fit(robot, &drawn, [left + 40.0, top + 22.0, cell_w - 60.0, cell_h - 66.0]);
+                view.backdrop(&mut svg, &title, &robot.length_unit);
+                Drawing { robot, skeleton, view: &view, names: false }.draw(&mut svg);
+            }
+            None => {
+                let word = match report.reachable {
+                    Reachable::No => "not reachable (proved)",
+                    Reachable::Undecided => "reachability undecided",
+                    Reachable::Yes => "reachable, no sample",
+                };
+                let middle = [left + 40.0 + (cell_w - 60.0) / 2.0, top + 15.0];
+                svg.text(middle, Anchor::Middle, 12.0, "font-weight:600", &title);
+                svg.text([middle[0], top + cell_h / 2.0], Anchor::Middle, 12.0, "fill:#777", word);
+            }
+        }
+    }
+    svg.finish()
+}
+
+/// A mode's name with a minus sign as wide as the plus.
+pub fn signs(mode: &str) -> String {
+    mode.replace('-', "−")
+}
+
+/// How space is projected on the paper.
+struct View {
+    chart: Chart,
+    /// Rows: the paper's right and up, in base coordinates.
+    project: [Point; 2],
+    flat: bool,
+}
+
+impl View {
+    /// A view in a box of pixels (left, top, width, height) that shows all the skeletons.
+    fn fit(robot: &Robot, skeletons: &[&Skeleton], [left, top, width, height]: [f64; 4]) -> Self {
+        let flat = robot.platform.space() == 2;
+        let (sin_a, cos_a) = (-0.95_f64).sin_cos();
+        let (sin_e, cos_e) = 0.42_f64.sin_cos();
+        let project = if flat {
+            [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
+        } else {
+            [[-sin_a, cos_a, 0.0], [-sin_e * cos_a, -sin_e * sin_a, cos_e]]
+        };
+        let sphere = robot.platform == Platform::TurningBody;
+        let unit: Vec<Point> = if sphere {
+            vec![[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]]
+        } else {
+            vec![]
+        };
+        let points: Vec<Point> =
+            skeletons.iter().flat_map(|s| s.points()).chain(unit).chain([[0.0; 3]]).collect();
+        let range = |k: usize| {
+            let of = || points.iter().map(|p| dot(project[k], *p));
+            let (lo, hi) = (of().fold(f64::MAX, f64::min), of().fold(f64::MIN, f64::max));
+            (lo, hi.max(lo + 1e-12))
+        };
+        let (mut x, mut y) = (range(0), range(1));
+        let margin = 0.14 * (x.1 - x.0).max(y.1 - y.0);
+        (x, y) = ((x.0 - margin, x.1 + margin), (y.0 - margin, y.1 + margin));
+        // Fill the box: equal scale leaves room along one axis.
+        let scale = ((x.1 - x.0) / width).max((y.1 - y.0) / height);
+        let grow = |r: (f64, f64), px: f64| (0.5 * (r.0 + r.1 - scale * px), 0.5 * (r.0 + r.1 + scale * px));
+        let axis = |name: &str, range| Axis {
+            label: format!("{name} [{}]", robot.length_unit),
+            range,
+            angle: false,
+        };
+        let chart =
+            Chart { x: axis("x", grow(x, width)), y: axis("y", grow(y, height)), left, top, width, height };
+        Self { chart, project, flat }
+    }
+
+    fn at(&self, p: Point) -> [f64; 2] {
+        self.chart.at([dot(self.project[0], p), dot(self.project[1], p)])
+    }
+
+    /// Axes in the plane, a scale bar in space.
+    fn backdrop(&self, svg: &mut Svg, title: &str, unit: &str) {
+        let c = &self.chart;
+        if self.flat {
+            c.frame(svg, title);
+            return;
+        }
+        svg.text([c.left + c.width / 2.0, c.top - 7.0], Anchor::Middle, 12.0, "font-weight:600", title);
+        let per_unit = c.width / c.x.span();
+        let power = 10_f64.powf((60.0 / per_unit).log10().floor());
+        let length = [1.0, 2.0, 5.0, 10.0]
+            .map(|m| m * power)
+            .into_iter()
+            .find(|l| l * per_unit >= 45.0)
+            .unwrap_or(power);
+        let (x, y) = (c.left, c.top + c.height + 14.0);
+        let style = format!("stroke:{INK};stroke-width:1.4");
+        svg.line([x, y], [x + length * per_unit, y], &style);
+        svg.line([x, y - 3.0], [x, y + 3.0], &style);
+        svg.line([x + length * per_unit, y - 3.0], [x + length * per_unit, y + 3.0], &style);
+        svg.text(
+            [x + length * per_unit + 6.0, y + 4.0],
+            Anchor::Start,
+            10.0,
+            "",
+            &format!("{length} {unit}"),
+        );
+    }
+}
+
+struct Drawing<'a> {
+    robot: &'a Robot,
+    skeleton: &'a Skeleton,
+    view: &'a View,
+    names: bool,
+}
+
+impl Drawing<'_> {
+    fn draw(&self, svg: &mut Svg) {
+        let spherical = self.robot.platform == Platform::TurningBody;
+        if spherical {
+            let c = self.view.at([0.0; 3]);
+            let r = self.view.chart.width / self.view.chart.x.span();
+            svg.circle(c, r, "fill:#f4f4f4;stroke:#bbb;stroke-width:1");
+        }
+        for leg in &self.skeleton.legs {
+            self.base(svg, leg);
+        }
+        let mut legs: Vec<usize> = (0..self.skeleton.legs.len()).collect();
+        // In space the farther legs first; the view looks along the horizontal component of `project[1]`.
+        legs.sort_by(|&i, &j| self.depth(j).total_cmp(&self.depth(i)));
+        self.platform(svg);
+        for k in legs {
+            self.leg(svg, k);
+        }
+        self.frame(svg, [0.0; 3], [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], INK);
+        if self.robot.platform != Platform::PlanePoint {
+            self.frame(svg, self.skeleton.origin, self.skeleton.axes, PLATFORM);
+        }
+        if self.names {
+            self.label(svg);
+        }
+    }
+
+    fn depth(&self, k: usize) -> f64 {
+        let up = self.view.project[1];
+        if self.view.flat { 0.0 } else { dot([up[0], up[1], 0.0], self.skeleton.legs[k].a) }
+    }
+
+    fn base(&self, svg: &mut Svg, leg: &LegShape) {
+        let a = self.view.at(leg.a);
+        if let Some([from, to]) = leg.rail {
+            svg.line(
+                self.view.at(from),
+                self.view.at(to),
+                &format!("stroke:{BASE};stroke-width:2;stroke-dasharray:7 3"),
+            );
+            return;
+        }
+        let size = if self.names { 9.0 } else { 6.0 };
+        let style = format!("fill:#ddd;stroke:{BASE};stroke-width:1");
+        svg.polyline(&[a, [a[0] - size, a[1] + 1.5 * size], [a[0] + size, a[1] + 1.5 * size]], true, &style);
+    }
+
+    fn leg(&self, svg: &mut Svg, k: usize) {
+        let leg = &self.skeleton.legs[k];
+        let thick = if self.names { 1.0 } else { 0.7 };
+        let stroke = |colour: &str, width: f64| {
+            format!("fill:none;stroke:{colour};stroke-width:{:.1};stroke-linecap:round", width * thick)
+        };
+        let arc = |a: Point, b: Point| -> Vec<[f64; 2]> {
+            let spherical = self.robot.platform == Platform::TurningBody;
+            let steps = if spherical { 24 } else { 1 };
+            (0..=steps)
+                .map(|i| {
+                    let t = i as f64 / steps as f64;
+                    let p = plus(times(1.0 - t, a), times(t, b));
+                    self.view.at(if spherical { times(1.0 / dot(p, p).sqrt().max(1e-9), p) } else { p })
+                })
+                .collect()
+        };
+        match leg.b {
+            Some(b) => {
+                if self.robot.legs[k].actuator.is_angle() {
+                    svg.polyline(&arc(leg.a, b), false, &stroke(CRANK, 5.0));
+                }
+                svg.polyline(&arc(b, leg.c), false, &stroke(ROD, 3.0));
+                self.joint(svg, b, matches!(self.robot.legs[k].actuator, Actuator::Prismatic { .. }));
+            }
+            None => {
+                let half = plus(leg.a, times(0.55, minus(leg.c, leg.a)));
+                svg.polyline(&arc(leg.a, leg.c), false, &stroke(ROD, 2.5));
+                svg.polyline(&arc(leg.a, half), false, &stroke(CRANK, 6.0));
+            }
+        }
+        if leg.rail.is_none() {
+            self.joint(svg, leg.a, leg.b.is_some());
+        }
+        self.joint(svg, leg.c, false);
+    }
+
+    /// A passive joint is white, a driven one filled.
+    fn joint(&self, svg: &mut Svg, p: Point, driven: bool) {
+        let (fill, r) = (if driven { CRANK } else { "#fff" }, if self.names { 4.5 } else { 3.0 });
+        svg.circle(self.view.at(p), r, &format!("fill:{fill};stroke:{INK};stroke-width:1.1"));
+    }
+
+    fn platform(&self, svg: &mut Svg) {
+        if self.skeleton.is_point() {
+            return;
+        }
+        let corners: Vec<[f64; 2]> = self.skeleton.legs.iter().map(|l| self.view.at(l.c)).collect();
+        let style = format!(
+            "fill:{PLATFORM};fill-opacity:0.25;stroke:{PLATFORM};stroke-width:2;stroke-linejoin:round"
+        );
+        svg.polyline(&corners, true, &style);
+    }
+
+    fn frame(&self, svg: &mut Svg, origin: Point, axes: [Point; 3], colour: &str) {
+        let length =
+            if self.names { 0.1 } else { 0.12 } * self.view.chart.x.span().min(self.view.chart.y.span());
+        let style = format!("stroke:{colour};stroke-width:1.2;fill:none");
+        for (axis, name) in axes.into_iter().zip(["x", "y", "z"]).take(self.robot.platform.space()) {
+            let (from, to) = (self.view.at(origin), self.view.at(plus(origin, times(length, axis))));
+            svg.line(from, to, &style);
+            let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
+            let norm = dx.hypot(dy).max(1e-9);
+            let (ux, uy) = (5.0 * dx / norm, 5.0 * dy / norm);
+            if norm > 8.0 {
+                let barbs = [
+                    [to[0] - ux - 0.5 * uy, to[1] - uy + 0.5 * ux],
+                    to,
+                    [to[0] - ux + 0.5 * uy, to[1] - uy - 0.5 * ux],
+                ];
+                svg.polyline(&barbs, false, &style);
+                if self.names {
+                    let at = [to[0] + 1.6 * ux, to[1] + 1.6 * uy + 3.5];
+                    svg.text(at, Anchor::Middle, 11.0, &format!("font-style:italic;fill:{colour}"), name);
+                }
+            }
+        }
+    }
+
+    fn label(&self, svg: &mut Svg) {
+        let point = self.skeleton.is_point();
+        let halo = "font-style:italic;paint-order:stroke;stroke:#fff;stroke-width:3px;stroke-linejoin:round";
+        let mut put = |p: Point, name: String, dx: f64, dy: f64| {
+            let at = self.view.at(p);
+            svg.text([at[0] + dx, at[1] + dy], Anchor::Start, 13.0, halo, &name);
+        };
+        for (k, leg) in self.skeleton.legs.iter().enumerate() {
+            let index = subscript(k + 1);
+            put(leg.a, format!("A{index}"), 11.0, 15.0);
+            if let Some(b) = leg.b {
+                put(b, format!("B{index}"), 8.0, -7.0);
+            }
+            if !point {
+                put(leg.c, format!("C{index}"), 8.0, -7.0);
+            }
+        }
+        if point {
+            put(self.skeleton.legs[0].c, "C".into(), 8.0, -7.0);
+        }
+    }
+}
+
+fn legend(svg: &mut Svg, robot: &Robot, at: [f64; 2]) {
+    let has = |f: fn(&Actuator) -> bool| robot.legs.iter().any(|l| f(&l.actuator));
+    let mut entries = Vec::new();
+    if has(|a| a.is_angle()) {
+        entries.push((CRANK, "crank (driven joint filled)"));
+    }
+    if has(|a| matches!(a, Actuator::Prismatic { .. })) {
+        entries.push((BASE, "slider's range (driven joint filled)"));
+    }
+    if has(|a| matches!(a, Actuator::Strut)) {
+        entries.push((CRANK, "strut (driven length)"));
+    } else {
+        entries.push((ROD, "rod"));
+    }
+    if robot.platform != Platform::PlanePoint {
+        entries.push((PLATFORM, "platform"));
+    }
+    let mut x = at[0];
+    for (colour, text) in entries {
+        svg.line([x, at[1] - 4.0], [x + 20.0, at[1] - 4.0], &format!("stroke:{colour};stroke-width:4"));
+        svg.text([x + 26.0, at[1]], Anchor::Start, 11.0, "", text);
+        x += 44.0 + 5.8 * text.len() as f64;
+    }
+}
+
+/// Decimal digits as subscripts.
+pub fn subscript(n: usize) -> String {
+    n.to_string().chars().filter_map(|c| char::from_u32(0x2080 + c.to_digit(10)?)).collect()
+}
+
+fn dot(a: Point, b: Point) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}

@@ -1,0 +1,99 @@
+//! Robots with three coordinates: slices of the W-aspects, one figure a working mode.
+
+use super::axes::{Axis, Chart};
+use super::barrier::Kind;
+use super::curves::{Plane, Sheet};
+use super::level::Grid;
+use super::maps::{draw_lines, fill, sample_line, swatch};
+use super::palette::{self, UNDECIDED};
+use super::raster::{Label, Raster};
+use super::robot::signs;
+use super::survey::{cell_raster, coordinate_name, pose_axes};
+use super::svg::{Number, Svg};
+use aspecta::aspect::{AspectClass, Cell};
+use aspecta::kinematics::WorkingMode;
+use aspecta::robot::{Robot, Window};
+
+/// Slices in a figure, in rows of three.
+const SLICES: usize = 9;
+/// Grid cells per side in which singular curves are looked for.
+const GRID: usize = 128;
+/// Most pixels along a side.
+const PIXELS: usize = 256;
+
+/// Both classes of a mode.
+#[derive(Clone, Copy, Debug)]
+pub struct ModeCells<'a> {
+    /// The mode.
+    pub mode: WorkingMode,
+    /// Number of the mode, from 1.
+    pub number: usize,
+    /// Its classes, each with its cells.
+    pub classes: &'a [(&'a AspectClass, &'a [Cell])],
+}
+
+/// Slices of a mode's W-aspects across the third coordinate, both signs of det A together, with singular curves.
+///
+/// `sides` are the numbers of finest cells along the axes.
+pub fn slices(robot: &Robot, window: &Window, sides: [usize; 3], mode: &ModeCells<'_>) -> String {
+    let axes = pose_axes(robot, window, [0, 1]);
+    let third = robot.platform.coordinates()[2];
+    let (name, range) = (coordinate_name(third.name), window.ranges[2]);
+    let unit = if third.angle { "rad" } else { &robot.length_unit };
+    let panel = (48.0, 26.0, 270.0, 40.0); // left, above, side, below
+    let count = if range.0 < range.1 { SLICES } else { 1 };
+    let rows = count.div_ceil(3);
+    let [x, y] = axes.clone();
+    let shape = Chart::fit(x, y, 0.0, 0.0, panel.2, panel.2);
+    let step = (panel.0 + shape.width + 8.0, panel.1 + shape.height + panel.3);
+    let size = ((3.0 * step.0 + 10.0).max(700.0), rows as f64 * step.1 + 34.0);
+    let text = signs(&mode.mode.to_string());
+    let mut svg =
+        Svg::new(&format!("slices-mf{}", mode.number), size.0, size.1, &format!("Slices of mode ({text})"));
+    for k in 0..count {
+        let at = range.0 + (range.1 - range.0) * (k as f64 + 0.5) / count as f64;
+        let [x, y] = axes.clone();
+        let (left, top) = (panel.0 + (k % 3) as f64 * step.0, panel.1 + (k / 3) as f64 * step.1);
+        let chart = Chart::fit(x, y, left, top, panel.2, panel.2);
+        let raster = slice(mode, &axes, [sides[0].min(PIXELS), sides[1].min(PIXELS)], at);
+        fill(&mut svg, &chart, &raster, |label| match label {
+            Label::Outside => None,
+            Label::Undecided => Some(UNDECIDED),
+            Label::Aspect(id) => Some(palette::aspect(id)),
+        });
+        let plane = Plane { through: vec![at; 3], axes: [0, 1] };
+        let sheet = Sheet { robot, mode: mode.mode, plane: &plane };
+        let grid = Grid { x: axes[0].range, y: axes[1].range, n: GRID };
+        let lines = sheet.curves(&grid).into_iter().map(|c| (c.kind, c.points)).collect();
+        draw_lines(&mut svg, &chart, &lines, [false; 2]);
+        chart.frame(&mut svg, &format!("({text}), {name} = {} {unit}", Number(at)).replace("-", "−"));
+    }
+    legend(&mut svg, [panel.0, size.1 - 12.0]);
+    svg.finish()
+}
+
+/// What the mode's classes say of the plane `at`: an aspect where either has one.
+fn slice(mode: &ModeCells<'_>, axes: &[Axis; 2], size: [usize; 2], at: f64) -> Raster<Label> {
+    let rasters: Vec<Raster<Label>> = mode
+        .classes
+        .iter()
+        .map(|(_, cells)| {
+            let cut: Vec<Cell> = cells
+                .iter()
+                .filter(|c| c.lo[2] <= at && (at < c.hi[2] || c.lo[2] == c.hi[2]))
+                .copied()
+                .collect();
+            cell_raster(&cut, axes, [0, 1], size)
+        })
+        .collect();
+    Raster::from_fn(size[0], size[1], |c, r| {
+        rasters.iter().map(|raster| raster.at(c, r)).max().unwrap_or(Label::Outside)
+    })
+}
+
+fn legend(svg: &mut Svg, at: [f64; 2]) {
+    let x = swatch(svg, at, palette::aspect(1), "one colour an aspect");
+    let x = swatch(svg, [x, at[1]], UNDECIDED, "undecided cells");
+    let x = sample_line(svg, [x, at[1]], Kind::Parallel, "det A = 0");
+    sample_line(svg, [x, at[1]], Kind::Serial, "det B = 0");
+}

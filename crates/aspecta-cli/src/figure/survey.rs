@@ -1,0 +1,160 @@
+//! What the maps of a robot with two coordinates show, computed once and drawn by several figures.
+
+use super::axes::Axis;
+use super::barrier::Kind;
+use super::curves::{Plane, Sheet};
+use super::image::image;
+use super::level::Grid;
+use super::raster::{Label, Raster, pixels};
+use aspecta::aspect::{AspectClass, Cell, DetSign};
+use aspecta::kinematics::WorkingMode;
+use aspecta::robot::{Robot, Window};
+use rayon::prelude::*;
+use std::f64::consts::PI;
+
+/// Grid cells per side in which singular curves are looked for.
+const GRID: usize = 512;
+/// Pixels per side of the Q-aspects.
+const PIXELS: usize = 768;
+
+/// W and Q of a robot with two coordinates, all classes.
+#[derive(Clone, Debug)]
+pub struct Survey<'a> {
+    /// The robot.
+    pub robot: &'a Robot,
+    /// x and y.
+    pub pose_axes: [Axis; 2],
+    /// q₁ and q₂.
+    pub joint_axes: [Axis; 2],
+    /// One entry a class.
+    pub classes: Vec<ClassMap<'a>>,
+    /// The boundary curves, one entry a working mode.
+    pub curves: Vec<ModeCurves>,
+}
+
+/// One class.
+#[derive(Clone, Debug)]
+pub struct ClassMap<'a> {
+    /// Its numbers.
+    pub class: &'a AspectClass,
+    /// W-aspects: the certified cells.
+    pub w: Raster<Label>,
+    /// Q-aspects: their images.
+    pub q: Raster<Label>,
+}
+
+/// Lines of one kind, as polylines.
+pub type Lines = Vec<(Kind, Vec<[f64; 2]>)>;
+
+/// The boundary curves of a mode.
+#[derive(Clone, Debug)]
+pub struct ModeCurves {
+    /// The mode.
+    pub mode: WorkingMode,
+    /// In W.
+    pub w: Lines,
+    /// Their images in Q; angles unwound.
+    pub q: Lines,
+}
+
+impl<'a> Survey<'a> {
+    /// Maps of all classes; `cells[k]` are those of class k and `side` is the number of finest cells along an axis.
+    pub fn new(
+        robot: &'a Robot,
+        window: &Window,
+        side: usize,
+        classes: &'a [AspectClass],
+        cells: &[Vec<Cell>],
+    ) -> Self {
+        let plane = Plane { through: vec![0.0; robot.dof()], axes: [0, 1] };
+        let pose_axes = pose_axes(robot, window, [0, 1]);
+        let joint_axes = joint_axes(robot, classes);
+        let side = side.clamp(1, 1024);
+        let sheet = |mode| Sheet { robot, mode, plane: &plane };
+        let maps = classes.par_iter().zip(cells).map(|(class, cells)| ClassMap {
+            class,
+            w: cell_raster(cells, &pose_axes, [0, 1], [side, side]),
+            q: image(&sheet(class.mode), class.det_a, cells, &joint_axes, PIXELS),
+        });
+        let classes = maps.collect();
+        let grid = Grid { x: pose_axes[0].range, y: pose_axes[1].range, n: GRID };
+        let curves = robot
+            .working_modes()
+            .into_par_iter()
+            .map(|mode| mode_curves(&sheet(mode), &grid, &joint_axes))
+            .collect();
+        Self { robot, pose_axes, joint_axes, classes, curves }
+    }
+
+    /// The map of a mode and sign, and the mode's curves.
+    pub fn of(&self, mode: WorkingMode, sign: DetSign) -> Option<(&ClassMap<'a>, &ModeCurves)> {
+        let map = self.classes.iter().find(|c| c.class.mode == mode && c.class.det_a == sign)?;
+        Some((map, self.curves.iter().find(|c| c.mode == mode)?))
+    }
+}
+
+fn mode_curves(sheet: &Sheet<'_>, grid: &Grid, joint_axes: &[Axis; 2]) -> ModeCurves {
+    let curves = sheet.curves(grid);
+    let step = [0, 1].map(|k| joint_axes[k].span() / 200.0);
+    let image = |c| sheet.image(c, &step).into_iter().map(|q| [q[0], q[1]]).collect();
+    ModeCurves {
+        mode: sheet.mode,
+        q: curves.iter().map(|c| (c.kind, image(c))).collect(),
+        w: curves.into_iter().map(|c| (c.kind, c.points)).collect(),
+    }
+}
+
+/// The axes of a plane of poses.
+pub fn pose_axes(robot: &Robot, window: &Window, axes: [usize; 2]) -> [Axis; 2] {
+    axes.map(|k| {
+        let c = robot.platform.coordinates()[k];
+        let unit = if c.angle { "rad" } else { &robot.length_unit };
+        Axis {
+            label: format!("{} [{unit}]", coordinate_name(c.name)),
+            range: shown_range(window, k),
+            angle: c.angle,
+        }
+    })
+}
+
+/// The window's range of a coordinate, widened if the coordinate is fixed.
+pub fn shown_range(window: &Window, k: usize) -> (f64, f64) {
+    let (lo, hi) = window.ranges[k];
+    if lo < hi { (lo, hi) } else { (lo - 0.5, lo + 0.5) }
+}
+
+/// A coordinate's name as it is written in formulas.
+pub fn coordinate_name(name: &str) -> &str {
+    if name == "phi" { "φ" } else { name }
+}
+
+/// A full turn for angles, the bounds over all aspects for lengths.
+fn joint_axes(robot: &Robot, classes: &[AspectClass]) -> [Axis; 2] {
+    [0, 1].map(|k| {
+        let angle = robot.legs[k].actuator.is_angle();
+        let bounds = || classes.iter().flat_map(|c| &c.aspects).map(|a| a.q_bounds[k]);
+        let (lo, hi) =
+            (bounds().map(|b| b.0).fold(f64::MAX, f64::min), bounds().map(|b| b.1).fold(f64::MIN, f64::max));
+        let range = if angle {
+            (-PI, PI)
+        } else if lo < hi {
+            (lo, hi)
+        } else {
+            (0.0, 1.0)
+        };
+        let unit = if angle { "rad" } else { &robot.length_unit };
+        Axis { label: format!("q{} [{unit}]", super::robot::subscript(k + 1)), range, angle }
+    })
+}
+
+/// Cells as pixels over a plane of poses. Where cells are smaller than a pixel, undecided ones come first and inner
+/// ones before what is outside: nothing is lost, and no boundary moves by more than a pixel.
+pub fn cell_raster(cells: &[Cell], axes: &[Axis; 2], which: [usize; 2], size: [usize; 2]) -> Raster<Label> {
+    let mut raster = Raster::filled(size[0], size[1], Label::Outside);
+    let inner = cells.iter().filter(|c| c.aspect.is_some());
+    for cell in inner.chain(cells.iter().filter(|c| c.aspect.is_none())) {
+        let range = |k: usize| pixels((cell.lo[which[k]], cell.hi[which[k]]), axes[k].range, size[k]);
+        raster.paint(range(0), range(1), cell.aspect.map_or(Label::Undecided, Label::Aspect));
+    }
+    raster
+}

@@ -1,0 +1,193 @@
+//! Numbers from the command line and from CSV files.
+
+use crate::failure::Failure;
+use aspecta::kinematics::WorkingMode;
+use aspecta::robot::Robot;
+use std::fs::File;
+use std::io::{self, BufRead, BufReader};
+
+/// Named numbers that are read together: the coordinates of a pose or of a joint vector.
+#[derive(Clone)]
+pub struct Columns {
+    /// The names, as in CSV headers.
+    pub names: Vec<String>,
+    /// Which of them are angles.
+    pub angles: Vec<bool>,
+}
+
+impl Columns {
+    /// X, in the order of the platform's coordinates.
+    pub fn pose(robot: &Robot) -> Self {
+        let coordinates = robot.platform.coordinates();
+        Self {
+            names: coordinates.iter().map(|c| c.name.to_owned()).collect(),
+            angles: coordinates.iter().map(|c| c.angle).collect(),
+        }
+    }
+
+    /// q, as q1, q2, …
+    pub fn joints(robot: &Robot) -> Self {
+        Self {
+            names: (1..=robot.dof()).map(|k| format!("q{k}")).collect(),
+            angles: robot.legs.iter().map(|l| l.actuator.is_angle()).collect(),
+        }
+    }
+
+    /// These and then `more`.
+    pub fn and(mut self, more: &Self) -> Self {
+        self.names.extend_from_slice(&more.names);
+        self.angles.extend_from_slice(&more.angles);
+        self
+    }
+
+    /// Degrees to radians, where `values` are angles given in degrees.
+    fn to_radians(&self, values: &mut [f64], degrees: bool) {
+        if degrees {
+            let angles = values.iter_mut().zip(&self.angles).filter(|(_, angle)| **angle);
+            angles.for_each(|(x, _)| *x = x.to_radians());
+        }
+    }
+}
+
+/// A comma-separated list given to `option`. How many numbers there should be is for the robot to say.
+pub fn list(option: &str, text: &str, columns: &Columns, degrees: bool) -> Result<Vec<f64>, Failure> {
+    let number = |(k, field): (usize, &str)| {
+        let field = field.trim();
+        field.parse::<f64>().map_err(|_| {
+            let names = columns.names.join(",");
+            Failure::Input(format!(
+                "{option}: number {} of `{text}`, `{field}`, is not a number; write {names} separated by commas",
+                k + 1
+            ))
+        })
+    };
+    let mut values = text.split(',').enumerate().map(number).collect::<Result<Vec<_>, _>>()?;
+    columns.to_radians(&mut values, degrees);
+    Ok(values)
+}
+
+/// The robot of a catalogue name or of a file.
+pub fn robot(name_or_path: &str) -> Result<Robot, Failure> {
+    Ok(Robot::resolve(name_or_path)?)
+}
+
+/// The working mode given to `--mode`, which must be one of the robot's.
+pub fn mode(robot: &Robot, text: &str) -> Result<WorkingMode, Failure> {
+    let modes = robot.working_modes();
+    let given = text.parse().ok().filter(|m| modes.contains(m));
+    given.ok_or_else(|| {
+        let names: Vec<_> = modes.iter().map(WorkingMode::to_string).collect();
+        Failure::Input(format!(
+            "--mode: `{text}` is not a working mode of `{}`; it has {}",
+            robot.name,
+            names.join(", ")
+        ))
+    })
+}
+
+/// A line of a CSV file.
+pub struct Row {
+    /// Its line number.
+    pub line: u64,
+    /// Its numbers, in the order of the columns asked for; angles in rad.
+    pub values: Vec<f64>,
+}
+
+/// The rows of a CSV file (`-` is stdin), each with the columns of one of `layouts` (the first that fits).
+///
+/// A first line without any number is a header: then columns are found by name, in any order, and others
+/// are ignored, so that what one command prints another can read. Empty lines and lines that start with
+/// `#` are skipped.
+pub fn rows(path: &str, layouts: &[Columns], degrees: bool) -> Result<Vec<Row>, Failure> {
+    let name = if path == "-" { "stdin" } else { path };
+    let source: Box<dyn BufRead> = match path {
+        "-" => Box::new(io::stdin().lock()),
+        _ => {
+            let file = File::open(path).map_err(|e| Failure::Input(format!("cannot read `{path}`: {e}")))?;
+            Box::new(BufReader::new(file))
+        }
+    };
+    let mut shape: Option<Shape> = None;
+    let mut rows = Vec::new();
+    for (line, text) in (1..).zip(source.lines()) {
+        let at = |message: String| Failure::Input(format!("{name}:{line}: {message}"));
+        let text = text.map_err(|e| at(e.to_string()))?;
+        let Some(fields) = fields(&text) else { continue };
+        let shape = match &shape {
+            Some(shape) => shape,
+            None => {
+                let header = fields.iter().all(|field| field.parse::<f64>().is_err());
+                let found =
+                    if header { Shape::of_header(&fields, layouts) } else { Shape::of_row(&fields, layouts) };
+                let found = shape.insert(found.map_err(at)?);
+                if header {
+                    continue;
+                }
+                found
+            }
+        };
+        rows.push(Row { line, values: shape.read(&fields, degrees).map_err(at)? });
+    }
+    if rows.is_empty() {
+        let wanted = wanted(layouts);
+        return Err(Failure::Input(format!(
+            "{name} holds no rows; one row of numbers is wanted a line: {wanted}"
+        )));
+    }
+    Ok(rows)
+}
+
+/// The fields of a line, or `None` if it is empty or a comment. Numbers and names hold no commas, so quotes are
+/// only stripped; a spreadsheet's byte order mark is skipped.
+fn fields(line: &str) -> Option<Vec<&str>> {
+    let line = line.trim_start_matches('\u{feff}').trim();
+    let filled = !line.is_empty() && !line.starts_with('#');
+    filled.then(|| line.split(',').map(|field| field.trim().trim_matches('"').trim()).collect())
+}
+
+/// Where the wanted columns stand in a file.
+struct Shape {
+    columns: Columns,
+    /// `fields[k]` is the index in the record of column k.
+    fields: Vec<usize>,
+    /// Fields a record must have; a headed file may hold more than is wanted, but no line of another length.
+    width: usize,
+}
+
+impl Shape {
+    fn of_header(header: &[&str], layouts: &[Columns]) -> Result<Self, String> {
+        let find = |name: &String| header.iter().position(|field| field.eq_ignore_ascii_case(name));
+        let fit = |c: &Columns| {
+            let fields = c.names.iter().map(find).collect::<Option<Vec<_>>>()?;
+            Some(Self { columns: c.clone(), fields, width: header.len() })
+        };
+        layouts.iter().find_map(fit).ok_or_else(|| {
+            format!("the header `{}` lacks a column; {} wanted", header.join(","), wanted(layouts))
+        })
+    }
+
+    fn of_row(row: &[&str], layouts: &[Columns]) -> Result<Self, String> {
+        let fit = layouts.iter().find(|c| c.names.len() == row.len());
+        let columns = fit.ok_or_else(|| format!("{} fields; {} wanted", row.len(), wanted(layouts)))?;
+        Ok(Self { columns: columns.clone(), fields: (0..row.len()).collect(), width: row.len() })
+    }
+
+    fn read(&self, record: &[&str], degrees: bool) -> Result<Vec<f64>, String> {
+        if record.len() != self.width {
+            return Err(format!("{} fields, but the first line has {}", record.len(), self.width));
+        }
+        let number = |(&field, name): (&usize, &String)| match record[field].parse::<f64>() {
+            Ok(x) if x.is_finite() => Ok(x),
+            Ok(x) => Err(format!("column {}, {name}: {x} is not a finite number", field + 1)),
+            Err(_) => Err(format!("column {}, {name}: `{}` is not a number", field + 1, record[field])),
+        };
+        let mut values =
+            self.fields.iter().zip(&self.columns.names).map(number).collect::<Result<Vec<_>, _>>()?;
+        self.columns.to_radians(&mut values, degrees);
+        Ok(values)
+    }
+}
+
+fn wanted(layouts: &[Columns]) -> String {
+    layouts.iter().map(|c| format!("`{}`", c.names.join(","))).collect::<Vec<_>>().join(" or ")
+}

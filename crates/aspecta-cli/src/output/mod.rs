@@ -1,0 +1,83 @@
+//! What people, scripts and spreadsheets read.
+
+mod table;
+
+pub use table::{Align, Table};
+
+use crate::failure::Failure;
+use clap::Args;
+use serde::Serialize;
+use std::io::{self, Write};
+
+/// Version of the JSON of `ik`, `fk`, `state` and `check-path`; raised when a field changes its meaning
+/// or goes away.
+pub const FORMAT_VERSION: u32 = 1;
+
+/// The `--json` and `--csv` switches.
+#[derive(Args, Clone, Copy)]
+pub struct FormatArgs {
+    /// Print JSON, and nothing else, on stdout (angles in radians)
+    #[arg(long, conflicts_with = "csv")]
+    json: bool,
+    /// Print CSV with a header (angles in radians)
+    #[arg(long)]
+    csv: bool,
+}
+
+/// How results are printed.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// An aligned table for people.
+    Table,
+    /// JSON.
+    Json,
+    /// CSV with a header.
+    Csv,
+}
+
+impl FormatArgs {
+    /// The format asked for.
+    pub fn format(self) -> Format {
+        match self {
+            Self { json: true, .. } => Format::Json,
+            Self { csv: true, .. } => Format::Csv,
+            _ => Format::Table,
+        }
+    }
+}
+
+/// Writes `value` as one JSON document.
+pub fn json(out: &mut dyn Write, value: &impl Serialize) -> Result<(), Failure> {
+    serde_json::to_writer_pretty(&mut *out, value)?;
+    writeln!(out)?;
+    Ok(())
+}
+
+/// A message to the user on stderr. There is nobody to tell if stderr is closed.
+pub fn note(message: &str) {
+    let _ = writeln!(io::stderr(), "{message}");
+}
+
+/// A number for people: six decimals, or six digits and a power of ten where these would not show it.
+pub fn number(x: f64) -> String {
+    let size = x.abs();
+    if size == 0.0 || (1e-3..1e7).contains(&size) { format!("{x:.6}") } else { format!("{x:.5e}") }
+}
+
+/// A number for people, in five digits.
+pub fn brief(x: f64) -> String {
+    let size = x.abs();
+    if size == 0.0 {
+        return "0".into();
+    }
+    if !(1e-4..1e6).contains(&size) {
+        return format!("{x:.3e}");
+    }
+    let decimals = (4 - size.log10().floor() as i32).clamp(0, 4) as usize;
+    format!("{x:.decimals$}")
+}
+
+/// A number for machines: the shortest that reads back as the same.
+pub fn exact(x: f64) -> String {
+    format!("{x:?}")
+}

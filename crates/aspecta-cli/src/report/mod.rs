@@ -1,0 +1,124 @@
+//! One standalone `report.html` and each of its figures as a file.
+
+mod page;
+mod tables;
+mod volume;
+
+use crate::figure::{self, maps, slices, survey::Survey};
+use aspecta::aspect::{Analysis, AspectClass, Cell, Sample};
+use rayon::prelude::*;
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// A figure: its file name without extension, and the SVG.
+type Figure = (String, String);
+
+/// The figures of a report, as the page arranges them.
+struct Figures {
+    robot: Option<Figure>,
+    postures: Figure,
+    /// Robots with two coordinates: figure 9, one figure per class, Definitions 5 and 6.
+    flat: Option<FlatFigures>,
+    /// Robots with three coordinates: one figure of slices per mode.
+    slices: Vec<Figure>,
+}
+
+struct FlatFigures {
+    figure_9: Figure,
+    classes: Vec<Figure>,
+    parallel: Figure,
+    serial: Figure,
+}
+
+/// Writes `report.html` and `figures/*.svg` into `dir`, which is created if need be, and returns the paths written.
+///
+/// The page is self-contained: it opens from a file, with no network. Equal analyses give equal files but for the
+/// seconds the run took. Each file appears under its name only when it is complete.
+///
+/// # Errors
+/// Those of the file system.
+pub fn write(analysis: &Analysis, dir: &Path) -> io::Result<Vec<PathBuf>> {
+    let cells: Vec<Vec<Cell>> = (0..analysis.classes.len()).map(|k| analysis.cells(k)).collect();
+    let figures = draw(analysis, &cells);
+    let volume = if analysis.robot.dof() == 3 { Some(volume::json(analysis, &cells)?) } else { None };
+    let folder = dir.join("figures");
+    fs::create_dir_all(&folder)?;
+    let mut written = vec![put(dir, "report.html", &page::page(analysis, &figures, volume.as_deref()))?];
+    for (name, svg) in figures.all() {
+        written.push(put(&folder, &format!("{name}.svg"), svg)?);
+    }
+    Ok(written)
+}
+
+/// Writes a file under a temporary name, then renames it.
+fn put(dir: &Path, name: &str, text: &str) -> io::Result<PathBuf> {
+    let (path, draft) = (dir.join(name), dir.join(format!(".{name}.{}.part", std::process::id())));
+    let write = || -> io::Result<()> {
+        let mut file = fs::File::create(&draft)?;
+        file.write_all(text.as_bytes())?;
+        file.sync_all()?;
+        fs::rename(&draft, &path)
+    };
+    write().inspect_err(|_| {
+        // The first error is the one to report.
+        let _ = fs::remove_file(&draft);
+    })?;
+    Ok(path)
+}
+
+impl Figures {
+    fn all(&self) -> impl Iterator<Item = &Figure> {
+        let flat = self
+            .flat
+            .iter()
+            .flat_map(|f| [&f.figure_9].into_iter().chain(&f.classes).chain([&f.parallel, &f.serial]));
+        self.robot.iter().chain([&self.postures]).chain(flat).chain(&self.slices)
+    }
+}
+
+fn draw(analysis: &Analysis, cells: &[Vec<Cell>]) -> Figures {
+    let robot = &analysis.robot;
+    Figures {
+        robot: sample(analysis).map(|s| ("robot".into(), figure::robot::robot(robot, s))),
+        postures: ("postures".into(), figure::robot::postures(robot, &analysis.modes)),
+        flat: (robot.dof() == 2).then(|| flat(analysis, cells)),
+        slices: if robot.dof() == 3 { mode_slices(analysis, cells) } else { Vec::new() },
+    }
+}
+
+/// A configuration to draw the robot in: that of the first mode that has one.
+fn sample(analysis: &Analysis) -> Option<&Sample> {
+    analysis.modes.iter().find_map(|m| m.sample.as_ref())
+}
+
+fn flat(analysis: &Analysis, cells: &[Vec<Cell>]) -> FlatFigures {
+    let side = side(analysis, 0).max(side(analysis, 1));
+    let survey = Survey::new(&analysis.robot, &analysis.window, side, &analysis.classes, cells);
+    let class =
+        |c: &AspectClass| (maps::class_name(&survey, c.mode, c.det_a), maps::class(&survey, c.mode, c.det_a));
+    FlatFigures {
+        figure_9: ("figure9".into(), maps::figure_9(&survey)),
+        classes: analysis.classes.iter().map(class).collect(),
+        parallel: ("parallel-aspects".into(), maps::parallel_aspects(&survey)),
+        serial: ("serial-aspects".into(), maps::serial_aspects(&survey)),
+    }
+}
+
+fn mode_slices(analysis: &Analysis, cells: &[Vec<Cell>]) -> Vec<Figure> {
+    let sides = std::array::from_fn(|k| side(analysis, k));
+    let figure = |m: &aspecta::aspect::ModeReport| {
+        let with_cells = analysis.classes.iter().zip(cells);
+        let classes: Vec<(&AspectClass, &[Cell])> =
+            with_cells.filter(|(c, _)| c.mode == m.mode).map(|(c, cells)| (c, &cells[..])).collect();
+        let mode = slices::ModeCells { mode: m.mode, number: m.number, classes: &classes };
+        (format!("slices-mf{}", m.number), slices::slices(&analysis.robot, &analysis.window, sides, &mode))
+    };
+    analysis.modes.par_iter().map(figure).collect()
+}
+
+/// How many finest cells there are along a coordinate.
+fn side(analysis: &Analysis, axis: usize) -> usize {
+    let (lo, hi) = analysis.window.ranges[axis];
+    if lo < hi { (((hi - lo) / analysis.run.resolution[axis]).round() as usize).max(1) } else { 1 }
+}

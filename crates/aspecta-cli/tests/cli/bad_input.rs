@@ -1,0 +1,125 @@
+//! Every kind of bad input: exit status 2, a message that says what and where, nothing on stdout.
+
+use crate::{aspecta, output};
+use std::fs;
+
+#[track_caller]
+fn refused(arguments: &str, complaints: &[&str]) {
+    let output = output(arguments);
+    let messages = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "aspecta {arguments}: {messages}");
+    assert!(output.stdout.is_empty(), "aspecta {arguments}");
+    for complaint in complaints {
+        assert!(messages.contains(complaint), "aspecta {arguments}\nwanted: {complaint}\nfound: {messages}");
+    }
+}
+
+#[test]
+fn unknown_command_and_option() {
+    refused("analyse five-bar", &["unrecognized subcommand 'analyse'", "analyze"]);
+    refused("ik five-bar --poses 1,2", &["unexpected argument '--poses'", "--pose"]);
+}
+
+#[test]
+fn unknown_robot() {
+    refused("ik fivebar --pose 1,2", &["`fivebar` is neither", "five-bar", "3-rrr"]);
+    refused("robots show fivebar", &["fivebar", "five-bar"]);
+    refused("analyze no-such-file.toml", &["no-such-file.toml"]);
+}
+
+#[test]
+fn missing_or_contradictory_arguments() {
+    refused("ik five-bar", &["--pose <LIST>", "--file <CSV>"]);
+    refused("ik five-bar --pose 1,2 --file x.csv", &["cannot be used with"]);
+    refused("ik five-bar --pose 1,2 --json --csv", &["cannot be used with"]);
+    refused("state five-bar --pose 1,2 --q 1,2 --mode ++", &["cannot be used with"]);
+}
+
+#[test]
+fn lists_that_are_not_numbers() {
+    refused("ik five-bar --pose 1,abc", &["--pose: number 2 of `1,abc`, `abc`, is not a number; write x,y"]);
+    refused("ik five-bar --pose 1,,2", &["number 2 of `1,,2`, ``, is not a number"]);
+    refused("fk five-bar --q --json", &["--q: number 1 of `--json`"]);
+    refused("ik five-bar --pose nan,2", &["pose coordinate 1 is NaN: give a finite number"]);
+    refused("fk five-bar --q 1,-inf", &["joint coordinate 2 is -inf: give a finite number"]);
+}
+
+#[test]
+fn lists_of_the_wrong_length() {
+    refused(
+        "ik five-bar --pose 1,2,3",
+        &["robot `five-bar` has 2 pose coordinates (x, y), but 3 were given"],
+    );
+    refused("fk 3-rrr --q 1", &["robot `3-rrr` has 3 joint coordinates (q1, q2, q3), but 1 were given"]);
+    refused("state five-bar --pose 1", &["has 2 pose coordinates"]);
+    refused("state five-bar --pose 4,7 --q 1,2,3", &["has 2 joint coordinates"]);
+}
+
+#[test]
+fn working_modes_the_robot_does_not_have() {
+    refused(
+        "ik five-bar --pose 4,7 --mode +",
+        &["`+` is not a working mode of `five-bar`; it has ++, +-, -+, --"],
+    );
+    refused("ik five-bar --pose 4,7 --mode up", &["`up` is not a working mode"]);
+    refused("state 3-rpr --pose 3,4,0 --mode +++", &["it has ---"]);
+}
+
+/// Which leg, and by how much: |A1C1| = 20, 7 beyond 8 + 5; |A2C1| = 29, 16 beyond.
+#[test]
+fn unreachable_poses() {
+    refused("ik five-bar --pose -20,0", &["out of reach: leg 1 by 7.000000", "leg 2 by 16.000000"]);
+    refused("state five-bar --pose -20,0", &["out of reach: leg 1 by 7.000000"]);
+    // |A1C1| = 1 is 2 short of 8 − 5; leg 2 reaches.
+    refused("ik five-bar --pose 1,0", &["out of reach: leg 1 by 2.000000"]);
+}
+
+#[test]
+fn direct_problems_that_are_not_available_yet() {
+    refused(
+        "fk gough-stewart --q 1,1,1,1,1,1",
+        &["direct problem of `free-body` platforms is not available yet"],
+    );
+    refused("analyze hexa", &["6 degrees of freedom: aspects are computed for 2 and 3"]);
+}
+
+#[test]
+fn budgets_and_threads() {
+    refused("analyze five-bar --budget soon", &["`soon` is not a budget", "30s", "depth=9", "res=0.1"]);
+    refused("analyze five-bar --budget 30s,1min", &["`1min` sets again"]);
+    refused("analyze five-bar --budget -3s", &["not a positive number"]);
+    refused("analyze five-bar --threads 0", &["0 is not in 1..="]);
+    refused("completions tcsh", &["invalid value 'tcsh'", "bash"]);
+}
+
+#[test]
+fn files_that_cannot_be_read_or_written() {
+    refused("ik five-bar --file no-such-file.csv", &["cannot read `no-such-file.csv`"]);
+    refused("check no-such-file.toml", &["no-such-file.toml"]);
+    let directory = tempfile::tempdir().unwrap();
+    let taken = directory.path().join("taken");
+    fs::write(&taken, "a file").unwrap();
+    let output = aspecta("analyze five-bar --budget depth=3 --out").arg(&taken).output().unwrap();
+    let messages = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(messages.contains("--out ") && messages.contains("taken"), "{messages}");
+}
+
+/// A mistake in a robot file: file, line, key, value. (The library's tests go through all of them.)
+#[test]
+fn robot_files_with_a_mistake() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("mine.toml");
+    let good = crate::stdout("robots show five-bar");
+    fs::write(&path, good.replace("crank", "krank")).unwrap();
+    for command in ["check", "analyze", "ik --pose 4,7"] {
+        let output = aspecta(command).arg(&path).output().unwrap();
+        let messages = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{messages}");
+        assert!(messages.contains("mine.toml:") && messages.contains("krank"), "{messages}");
+        assert!(output.stdout.is_empty());
+    }
+    fs::write(&path, good).unwrap();
+    let output = aspecta("check").arg(&path).output().unwrap();
+    assert!(output.status.success());
+}

@@ -1,0 +1,44 @@
+//! The command line as its users meet it: what it prints, and how it ends.
+
+mod analyze;
+mod bad_input;
+mod csv;
+mod json;
+mod people;
+mod process;
+
+use assert_cmd::Command;
+use serde_json::Value;
+use std::process::Output;
+
+/// `aspecta` with these arguments, separated by blanks.
+pub fn aspecta(arguments: &str) -> Command {
+    let mut command = Command::cargo_bin("aspecta").expect("cargo builds the binary for its tests");
+    command.args(arguments.split_whitespace());
+    command
+}
+
+/// Its output, whatever its exit status.
+pub fn output(arguments: &str) -> Output {
+    aspecta(arguments).output().expect("the binary starts")
+}
+
+/// What it prints, when it should succeed.
+pub fn stdout(arguments: &str) -> String {
+    let output = output(arguments);
+    let complaint = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "aspecta {arguments}: {complaint}");
+    String::from_utf8(output.stdout).expect("UTF-8")
+}
+
+/// The JSON it prints, when it should succeed: nothing but one document.
+pub fn json(arguments: &str) -> Value {
+    let text = stdout(arguments);
+    serde_json::from_str(&text).unwrap_or_else(|e| panic!("aspecta {arguments}: {e}\n{text}"))
+}
+
+/// The numbers of a JSON array.
+pub fn numbers(value: &Value) -> Vec<f64> {
+    let array = value.as_array().unwrap_or_else(|| panic!("not an array: {value}"));
+    array.iter().map(|x| x.as_f64().unwrap_or_else(|| panic!("not a number: {x}"))).collect()
+}

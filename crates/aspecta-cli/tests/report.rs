@@ -1,0 +1,125 @@
+//! The report of whole analyses: complete, well-formed, self-contained, of a sane size and the same every time.
+//!
+//! With `ASPECTA_FIGURES=DIR` the reports stay in DIR to look at.
+
+mod common;
+
+use aspecta::aspect::Analysis;
+use common::{analysis, five_bar, three_rrr};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Where a report goes: into the directory `ASPECTA_FIGURES` names, else a temporary one.
+fn directory(name: &str) -> (PathBuf, tempfile::TempDir) {
+    let temporary = tempfile::tempdir().unwrap();
+    let dir = std::env::var("ASPECTA_FIGURES").map_or(temporary.path().to_owned(), PathBuf::from);
+    (dir.join(name), temporary)
+}
+
+fn files(dir: &Path) -> BTreeMap<PathBuf, String> {
+    let entries = fs::read_dir(dir).unwrap().chain(fs::read_dir(dir.join("figures")).unwrap());
+    let paths = entries.map(|e| e.unwrap().path()).filter(|p| p.is_file());
+    paths.map(|p| (p.strip_prefix(dir).unwrap().to_owned(), fs::read_to_string(&p).unwrap())).collect()
+}
+
+/// Writes a report and checks what every report must fulfil; returns the page.
+fn checked(analysis: &Analysis, dir: &Path, sections: &[&str], most_bytes: usize) -> String {
+    let written = aspecta_cli::report::write(analysis, dir).unwrap();
+    let files = files(dir);
+    assert_eq!(files.len(), written.len(), "nothing but the named files, no drafts");
+    let page = &files[Path::new("report.html")];
+    for (path, svg) in files.iter().filter(|f| f.0.extension().is_some_and(|e| e == "svg")) {
+        let document = roxmltree::Document::parse(svg).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+        let root = document.root_element();
+        assert_eq!(root.tag_name().name(), "svg");
+        assert!(root.descendants().any(|n| n.has_tag_name(("http://www.w3.org/2000/svg", "title"))));
+        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{}", path.display());
+        assert!(page.contains(svg.as_str()), "{} is not in the page", path.display());
+        assert!(page.contains(&format!("href=\"{}\"", path.display())), "{} is not linked", path.display());
+    }
+    assert!(page.len() < most_bytes, "{} bytes", page.len());
+    let markup =
+        page.split("<script").map(|s| s.split_once("</script>").map_or(s, |s| s.1)).collect::<String>();
+    for outside in ["src=", "<link", "<img", "<iframe", "@import", "href=\"http", "url(http"] {
+        assert!(!markup.contains(outside), "the page refers to something outside: {outside}");
+    }
+    for id in sections {
+        assert_eq!(page.matches(&format!("<section id=\"{id}\">")).count(), 1, "{id}");
+        assert!(page.contains(&format!("href=\"#{id}\"")), "{id} is not in the navigation");
+    }
+    page.clone()
+}
+
+#[test]
+fn the_five_bar() {
+    let analysis = analysis(&five_bar(), 9);
+    let (dir, _keep) = directory("five-bar");
+    let sections = ["robot", "modes", "counts", "maps", "earlier", "certified", "run"];
+    let page = checked(&analysis, &dir, &sections, 3_000_000);
+    // Table 2: six classes of one aspect, two of two.
+    assert_eq!(page.matches("<strong>at least 1</strong>").count(), 6);
+    assert_eq!(page.matches("<strong>at least 2</strong>").count(), 2);
+    assert!(page.contains("at least 10 generalized aspects"));
+    assert!(!page.contains("id=\"volume\""));
+}
+
+#[test]
+fn the_three_rrr() {
+    let analysis = analysis(&three_rrr(), 5);
+    let (dir, _keep) = directory("3-rrr");
+    let sections = ["robot", "modes", "counts", "space", "earlier", "certified", "run"];
+    let page = checked(&analysis, &dir, &sections, 15_000_000);
+    let (_, volume) = page.split_once("<script id=\"volume\" type=\"application/json\">").unwrap();
+    let volume: serde_json::Value = serde_json::from_str(volume.split_once("</script>").unwrap().0).unwrap();
+    assert_eq!(volume["size"], serde_json::json!([32, 32, 32]));
+    assert_eq!(volume["classes"].as_array().unwrap().len(), analysis.classes.len());
+    assert_eq!(volume["numbers"].as_array().unwrap().len(), 8);
+}
+
+/// Same analysis, same files, on one thread and on several.
+#[test]
+fn reports_are_deterministic() {
+    for robot in [five_bar(), three_rrr()] {
+        let analysis = analysis(&robot, 5);
+        let write = |threads| {
+            let dir = tempfile::tempdir().unwrap();
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| aspecta_cli::report::write(&analysis, dir.path())).unwrap();
+            files(dir.path())
+        };
+        assert!(write(1) == write(3));
+    }
+}
+
+/// Texts of the robot file are shown, not run.
+#[test]
+fn names_are_escaped() {
+    let mut robot = three_rrr();
+    robot.title = "<script>alert(1)</script>".into();
+    robot.length_unit = "</script><b>".into();
+    let analysis = analysis(&robot, 3);
+    let (dir, _keep) = directory("escaped");
+    let page = checked(&analysis, &dir, &["robot"], 15_000_000);
+    assert!(!page.contains("alert(1)</script>") && !page.contains("</script><b>"));
+}
+
+/// An analysis that decided next to nothing (stopped at once, say) has a report too.
+#[test]
+fn nothing_decided() {
+    for robot in [five_bar(), three_rrr()] {
+        let analysis = analysis(&robot, 1);
+        assert!(analysis.classes.iter().all(|c| c.aspects.is_empty()));
+        let (dir, _keep) = directory(&format!("undecided-{}", robot.name));
+        let page = checked(&analysis, &dir, &["robot", "modes", "counts", "earlier"], 15_000_000);
+        assert!(page.contains("at least 0 generalized aspects"));
+    }
+}
+
+/// A place that cannot be written to is an error, not a panic.
+#[test]
+fn errors_of_the_file_system_are_returned() {
+    let analysis = analysis(&five_bar(), 3);
+    let file = tempfile::NamedTempFile::new().unwrap();
+    assert!(aspecta_cli::report::write(&analysis, file.path()).is_err());
+}

@@ -1,0 +1,128 @@
+//! Proofs that a direct solution exists and is alone: the Krawczyk operator.
+
+use super::locked::{Locked, equations, linearised};
+use crate::num::{Interval, Jet};
+use crate::robot::Platform;
+use nalgebra::SMatrix;
+
+/// What interval arithmetic knows of the solutions in a box.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Verdict<const N: usize> {
+    /// Exactly one solution in the box, and it lies in this smaller one.
+    One([Interval; N]),
+    /// No solution.
+    None,
+    /// Cannot tell.
+    Unknown,
+}
+
+/// f(·, q) linearised at a point m, for the Krawczyk operator on boxes X round m,
+///
+/// > K(X) = m − Y f(m) + (I − Y F(X)) (X − m),
+///
+/// with Y ≈ f′(m)⁻¹ and F(X) an enclosure of f′ over X.
+///
+/// *Theorem* (Krawczyk 1969; Neumaier, *Interval Methods for Systems of Equations*, 1990, theorem 5.1.8). Every
+/// zero of f in X lies in K(X); so if K(X) ∩ X is empty, X holds none. If K(X) lies in the interior of X, then
+/// f has exactly one zero in X, and f′ is regular there.
+///
+/// Robot constants and q are intervals here, so this holds for every robot and every q inside them.
+struct Krawczyk<'a, const D: usize, const N: usize> {
+    platform: Platform,
+    legs: &'a [Locked],
+    centre: [f64; N],
+    inverse: SMatrix<f64, N, N>,
+    /// −Y f(m).
+    shift: [Interval; N],
+}
+
+impl<'a, const D: usize, const N: usize> Krawczyk<'a, D, N> {
+    /// `None` if f′(m) has no inverse.
+    fn at(platform: Platform, legs: &'a [Locked], centre: [f64; N]) -> Option<Self> {
+        let (_, jacobian) = linearised::<D, N>(platform, legs, &centre);
+        let inverse = jacobian.try_inverse().filter(|y| y.iter().all(|v| v.is_finite()))?;
+        let f = equations::<Interval, D, N>(platform, legs, &centre.map(Interval::point));
+        let shift = std::array::from_fn(|i| {
+            (0..N).fold(Interval::point(0.0), |sum, k| sum - Interval::point(inverse[(i, k)]) * f[k])
+        });
+        Some(Self { platform, legs, centre, inverse, shift })
+    }
+
+    /// K(X) for a box X that holds m.
+    fn image(&self, region: &[Interval; N]) -> [Interval; N] {
+        let variables = std::array::from_fn(|k| Jet::<Interval, N>::variable(region[k], k));
+        let f = equations::<_, D, N>(self.platform, self.legs, &variables);
+        std::array::from_fn(|i| {
+            let mut image = Interval::point(self.centre[i]) + self.shift[i];
+            for j in 0..N {
+                let mut defect = Interval::point(if i == j { 1.0 } else { 0.0 });
+                for k in 0..N {
+                    defect = defect - Interval::point(self.inverse[(i, k)]) * f[k].gradient[j];
+                }
+                image = image + defect * (region[j] - Interval::point(self.centre[j]));
+            }
+            image
+        })
+    }
+
+    fn judge(&self, region: &[Interval; N]) -> Verdict<N> {
+        let image = self.image(region);
+        let apart = |i: usize| image[i].hi < region[i].lo || region[i].hi < image[i].lo;
+        if (0..N).any(apart) {
+            Verdict::None
+        } else if inside(&image, region) {
+            Verdict::One(image)
+        } else {
+            Verdict::Unknown
+        }
+    }
+}
+
+fn inside<const N: usize>(inner: &[Interval; N], outer: &[Interval; N]) -> bool {
+    (0..N).all(|k| outer[k].lo < inner[k].lo && inner[k].hi < outer[k].hi)
+}
+
+/// The solutions in `region`, a box in pose coordinates.
+pub(super) fn judge<const D: usize, const N: usize>(
+    platform: Platform,
+    legs: &[Locked],
+    region: &[Interval; N],
+) -> Verdict<N> {
+    Krawczyk::<D, N>::at(platform, legs, region.map(Interval::mid))
+        .map_or(Verdict::Unknown, |k| k.judge(region))
+}
+
+/// A box round the approximate solution `pose` proved to hold exactly one solution, or `None`.
+///
+/// The box is found by inflation: twice what the operator makes of the point, then of that, a few times.
+pub(super) fn certify<const D: usize, const N: usize>(
+    platform: Platform,
+    legs: &[Locked],
+    pose: [f64; N],
+) -> Option<[Interval; N]> {
+    const INFLATIONS: usize = 4;
+    let operator = Krawczyk::<D, N>::at(platform, legs, pose)?;
+    let around = |m: f64, reach: f64| {
+        let radius = 2.0 * reach + f64::EPSILON * m.abs() + f64::MIN_POSITIVE;
+        Interval::point(m) + Interval::new(-radius, radius)
+    };
+    let mut region: [_; N] = std::array::from_fn(|k| around(pose[k], operator.shift[k].magnitude()));
+    for _ in 0..INFLATIONS {
+        let image = operator.image(&region);
+        if inside(&image, &region) {
+            return Some(region);
+        }
+        region = std::array::from_fn(|k| around(pose[k], (image[k] - Interval::point(pose[k])).magnitude()));
+    }
+    None
+}
+
+/// Whether two boxes of poses have no pose in common; angles are compared modulo 2π.
+pub(super) fn disjoint<const N: usize>(platform: Platform, a: &[Interval; N], b: &[Interval; N]) -> bool {
+    let turn = Interval::PI * Interval::point(2.0);
+    (0..N).any(|k| {
+        let gap = a[k] - b[k];
+        let apart = |g: Interval| !g.contains(0.0);
+        apart(gap) && (!platform.coordinates()[k].periodic || (apart(gap - turn) && apart(gap + turn)))
+    })
+}

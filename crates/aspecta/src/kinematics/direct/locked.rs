@@ -1,0 +1,142 @@
+//! Legs with locked actuators: what the direct problem sees of a robot.
+
+use crate::kinematics::leg::equation;
+use crate::kinematics::placement::{Placement, out_of_frame};
+use crate::num::{Interval, Jet, Scalar};
+use crate::robot::{Actuator, BASE_FRAME, Leg, Platform};
+use arrayvec::ArrayVec;
+use nalgebra::{SMatrix, SVector};
+
+/// A leg whose actuator is locked at q. The end C of a point-to-point leg is then tied to a sphere (a circle
+/// in the plane) ‖C − P‖² = R²: it has become a strut of length R = `q` anchored at P = `leg.anchor`.
+///
+/// | actuator | P | R |
+/// |---|---|---|
+/// | revolute | A + L(cos q u + sin q v) | M |
+/// | prismatic | A + q u | M |
+/// | strut | A | q |
+#[derive(Clone, Debug)]
+pub(super) struct Locked {
+    pub leg: Leg,
+    pub q: Interval,
+}
+
+/// The legs of a robot, locked.
+pub(super) type LockedLegs = ArrayVec<Locked, 6>;
+
+impl Locked {
+    /// Locks a point-to-point leg at the joint coordinate `q`, taken with a slack of two to four units in
+    /// the last place of what q was computed from: a configuration whose q was rounded must not be lost.
+    /// Spherical legs have no such form; they stay as they are.
+    pub fn new<const D: usize>(leg: &Leg, q: f64) -> Self {
+        let computed_from = match &leg.actuator {
+            Actuator::Revolute { .. } | Actuator::Spherical { .. } => 1.0,
+            Actuator::Prismatic { rod } => rod.mid(),
+            Actuator::Strut => 0.0,
+        };
+        let slack = 2.0 * f64::EPSILON * q.abs().max(computed_from);
+        let q = Interval::new(q - slack, q + slack);
+        let (local, length) = match &leg.actuator {
+            Actuator::Revolute { crank, rod } => {
+                let (sin, cos) = q.sin_cos();
+                ([cos * *crank, sin * *crank, Interval::point(0.0)], *rod)
+            }
+            Actuator::Prismatic { rod } => ([q, Interval::point(0.0), Interval::point(0.0)], *rod),
+            Actuator::Strut => ([Interval::point(0.0); 3], q),
+            Actuator::Spherical { .. } => return Self { leg: leg.clone(), q },
+        };
+        let mut anchor = leg.anchor;
+        let crank = out_of_frame::<Interval, D>(leg, &std::array::from_fn(|k| local[k]));
+        for k in 0..D {
+            anchor[k] = anchor[k] + crank[k];
+        }
+        let strut = Leg {
+            anchor,
+            attachment: leg.attachment,
+            frame: BASE_FRAME,
+            actuator: Actuator::Strut,
+            limits: Vec::new(),
+        };
+        Self { leg: strut, q: length }
+    }
+
+    /// The centre P − c of the sphere of poses that this leg allows a platform that does not turn.
+    pub fn centre<const D: usize>(&self) -> [Interval; D] {
+        std::array::from_fn(|k| self.leg.anchor[k] - self.leg.attachment[k])
+    }
+}
+
+/// f(X), one leg equation a locked leg, for any scalar: values, enclosures, or either with gradients.
+#[inline]
+pub(super) fn equations<T: Scalar, const D: usize, const N: usize>(
+    platform: Platform,
+    legs: &[Locked],
+    x: &[T; N],
+) -> [T; N] {
+    let placement = Placement::<T, D>::at(platform, x);
+    std::array::from_fn(|j| {
+        let Locked { leg, q } = &legs[j];
+        equation(&leg.actuator, &placement.span(leg, &placement.arm(leg)), T::constant(*q))
+    })
+}
+
+/// f and ∂f/∂X at the point `x`.
+#[inline]
+pub(super) fn linearised<const D: usize, const N: usize>(
+    platform: Platform,
+    legs: &[Locked],
+    x: &[f64; N],
+) -> (SVector<f64, N>, SMatrix<f64, N, N>) {
+    let variables = std::array::from_fn(|k| Jet::<f64, N>::variable(x[k], k));
+    let f = equations::<_, D, N>(platform, legs, &variables);
+    (SVector::from_fn(|j, _| f[j].value), SMatrix::from_fn(|j, k| f[j].gradient[k]))
+}
+
+/// Newton's method from `x`: the best iterate, the one with the least residual.
+///
+/// Steps are cut to `reach` (relative to the longest leg for lengths, in rad for angles). It stops after the
+/// first step so small that the next, quadratically smaller, is lost in rounding.
+pub(super) fn polish<const D: usize, const N: usize>(
+    platform: Platform,
+    legs: &[Locked],
+    x: [f64; N],
+    reach: f64,
+) -> [f64; N] {
+    const MOST_STEPS: usize = 12;
+    const SMALL_STEP: f64 = 1e-10;
+    let longest = legs.iter().map(|l| l.q.hi).fold(0.0, f64::max);
+    let unit: [f64; N] = std::array::from_fn(|k| if platform.coordinates()[k].angle { 1.0 } else { longest });
+    let (mut best, mut least) = (x, f64::INFINITY);
+    let mut here = x;
+    for _ in 0..MOST_STEPS {
+        let (f, jacobian) = linearised::<D, N>(platform, legs, &here);
+        let residual = f.amax();
+        if residual >= least || residual.is_nan() {
+            break;
+        }
+        (best, least) = (here, residual);
+        let Some(inverse) = jacobian.try_inverse() else { break };
+        let mut step = inverse * f;
+        let size = (0..N).map(|k| (step[k] / unit[k]).abs()).fold(0.0, f64::max);
+        if size > reach {
+            step *= reach / size;
+        }
+        here = std::array::from_fn(|k| here[k] - step[k]);
+        if size < SMALL_STEP {
+            return here;
+        }
+    }
+    best
+}
+
+/// Whether the leg equations hold at `x` as far as double precision can tell: to a small multiple of the width
+/// that the rounding of q, of the robot's constants and of the arithmetic gives the residual's enclosure.
+pub(super) fn rounds_to_zero<const D: usize, const N: usize>(
+    platform: Platform,
+    legs: &[Locked],
+    x: &[f64; N],
+) -> bool {
+    const WIDTHS: f64 = 16.0;
+    let f = equations::<Interval, D, N>(platform, legs, &x.map(Interval::point));
+    f.iter().all(|f| f.mid().abs() <= WIDTHS * f.width())
+}

@@ -1,0 +1,236 @@
+//! The direct geometric model: all real poses of a joint vector, g⁻¹(q) of (6) over all working modes.
+//!
+//! With its actuators locked every point-to-point leg is a strut of fixed length (`locked`), so a robot poses one of
+//! a few classical problems:
+//!
+//! | platform | problem | poses |
+//! |---|---|---|
+//! | plane point | two circles (`circles`) | 2 |
+//! | translating body | three spheres (`spheres`) | 2 |
+//! | plane body | 3-RPR: one trigonometric polynomial of degree 3 in φ (`planar_body`) | 6 |
+//!
+//! Nothing is lost near double solutions: intervals decide how many poses there are, and where they cannot, every
+//! pose is returned whose leg equations hold to rounding.
+
+mod bernstein;
+mod certify;
+mod circles;
+mod cluster;
+mod locked;
+mod mirror;
+mod planar_body;
+mod spheres;
+
+use super::leg::eliminate;
+use super::limits::{LegAt, margin};
+use super::placement::Placement;
+use super::{KinematicsError, Solution, WorkingMode, for_platform};
+use crate::num::Interval;
+use crate::robot::{Actuator, Platform, Robot};
+use arrayvec::ArrayVec;
+use locked::{Locked, LockedLegs};
+use std::cmp::Ordering;
+
+/// More than any platform has here, to leave room for doubtful near-double poses.
+const CAPACITY: usize = 16;
+
+/// With locked actuators the platform still moves.
+#[derive(Clone, Copy, Debug)]
+struct SelfMotion;
+
+/// Poses found and what is proved of their number.
+#[derive(Clone, Debug)]
+struct Roots<const N: usize> {
+    poses: ArrayVec<[f64; N], CAPACITY>,
+    /// A proved upper bound of the number of poses, for every q within rounding; `None` where there is none.
+    at_most: Option<usize>,
+}
+
+impl<const N: usize> Roots<N> {
+    fn none() -> Self {
+        Self { poses: ArrayVec::new(), at_most: Some(0) }
+    }
+
+    fn push(&mut self, pose: [f64; N]) -> Result<(), SelfMotion> {
+        self.poses.try_push(pose).map_err(|_| SelfMotion)
+    }
+
+    /// Adds a doubtful pose unless it is one already there: nearer than two poses that meet can be told apart,
+    /// √ε of the longest leg or of a radian.
+    fn push_new(&mut self, platform: Platform, legs: &[Locked], pose: [f64; N]) -> Result<(), SelfMotion> {
+        const MEET: f64 = 1.5e-8;
+        let longest = legs.iter().map(|l| l.q.hi).fold(0.0, f64::max);
+        let near = |other: &[f64; N]| {
+            platform.coordinates().iter().enumerate().all(|(k, c)| {
+                let gap = pose[k] - other[k];
+                if c.angle { principal(gap).abs() <= MEET } else { gap.abs() <= MEET * longest }
+            })
+        };
+        if self.poses.iter().any(near) { Ok(()) } else { self.push(pose) }
+    }
+}
+
+/// The poses of a joint vector, without allocation: what [`Robot::direct_poses`] returns.
+#[derive(Clone, Debug)]
+pub struct Poses {
+    list: ArrayVec<[f64; 6], CAPACITY>,
+    dof: usize,
+    at_most: Option<usize>,
+}
+
+impl Poses {
+    fn new<const N: usize>(platform: Platform, roots: Roots<N>) -> Self {
+        let coordinates = platform.coordinates();
+        let list = roots.poses.iter().map(|pose| {
+            let coordinate = |k: usize| if coordinates[k].angle { principal(pose[k]) } else { pose[k] };
+            std::array::from_fn(|k| if k < N { coordinate(k) } else { 0.0 })
+        });
+        let mut list: ArrayVec<[f64; 6], CAPACITY> = list.collect();
+        // By angles first, then by lengths.
+        let by = |a: &[f64; 6], b: &[f64; 6], angle: bool| {
+            let keys = (0..N).filter(|&k| coordinates[k].angle == angle);
+            keys.fold(Ordering::Equal, |o, k| o.then(a[k].total_cmp(&b[k])))
+        };
+        list.sort_unstable_by(|a, b| by(a, b, true).then(by(a, b, false)));
+        Self { list, dof: N, at_most: roots.at_most }
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.list.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
+    /// The poses X, as [`Platform::coordinates`] orders their coordinates, sorted by angles, then by lengths.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = &[f64]> {
+        self.list.iter().map(|pose| &pose[..self.dof])
+    }
+}
+
+/// All direct solutions, and whether they are proved to be all.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DirectSolutions {
+    /// The solutions, sorted by angles, then by lengths.
+    pub solutions: Vec<Solution>,
+    /// Whether it is proved that these are all real solutions: intervals bound their number from above, and as
+    /// many certified solutions with disjoint boxes are in the list. False near parallel singularities that
+    /// double precision cannot tell from a double solution.
+    pub complete: bool,
+}
+
+/// The angle within (−π, π].
+fn principal(angle: f64) -> f64 {
+    use std::f64::consts::{PI, TAU};
+    let within = angle - TAU * ((angle - PI) / TAU).ceil();
+    if within <= -PI { within + TAU } else { within }
+}
+
+impl Robot {
+    /// All real poses X with f(X, q) = 0: the direct solutions of q in every working mode. Solutions beyond joint
+    /// limits are listed too, with `within_limits` false.
+    ///
+    /// *Certified* means: there is a box round the pose in which the Krawczyk operator proves exactly one
+    /// solution, for every q within a few units in the last place. Near a parallel singularity, where two
+    /// solutions meet, that may not be possible; a pose whose leg equations hold to rounding is then returned once
+    /// or twice, uncertified. [`Robot::direct_certified`] tells, too, whether the list is proved complete.
+    ///
+    /// # Errors
+    /// [`KinematicsError`] if `q` has the wrong length or is not finite, if a strut's length is not positive, if the
+    /// solutions are infinitely many, or if the platform has no direct model yet.
+    pub fn direct(&self, q: &[f64]) -> Result<Vec<Solution>, KinematicsError> {
+        Ok(self.direct_certified(q)?.solutions)
+    }
+
+    /// [`Robot::direct`] with the proof that no solution is missing, where there is one.
+    ///
+    /// # Errors
+    /// As [`Robot::direct`].
+    pub fn direct_certified(&self, q: &[f64]) -> Result<DirectSolutions, KinematicsError> {
+        let legs = self.locked(q)?;
+        let poses = self.poses_of(&legs)?;
+        Ok(for_platform!(self.platform, labelled(self, q, &legs, &poses)))
+    }
+
+    /// The poses of [`Robot::direct`] alone: no labels, no certificates, no allocation. For control loops.
+    ///
+    /// # Errors
+    /// As [`Robot::direct`].
+    pub fn direct_poses(&self, q: &[f64]) -> Result<Poses, KinematicsError> {
+        self.poses_of(&self.locked(q)?)
+    }
+
+    fn locked(&self, q: &[f64]) -> Result<LockedLegs, KinematicsError> {
+        self.check_joints(q)?;
+        let locked = |(j, leg): (usize, &crate::robot::Leg)| match leg.actuator {
+            Actuator::Strut if q[j] <= 0.0 => Err(KinematicsError::StrutLength { leg: j + 1, value: q[j] }),
+            _ if self.platform.space() == 2 => Ok(Locked::new::<2>(leg, q[j])),
+            _ => Ok(Locked::new::<3>(leg, q[j])),
+        };
+        self.legs.iter().enumerate().map(locked).collect()
+    }
+
+    fn poses_of(&self, legs: &[Locked]) -> Result<Poses, KinematicsError> {
+        let platform = self.platform;
+        match platform {
+            Platform::PlanePoint => {
+                mirror::solve(platform, legs, circles::intersect).map(|r| Poses::new(platform, r))
+            }
+            Platform::TranslatingBody => {
+                mirror::solve(platform, legs, spheres::intersect).map(|r| Poses::new(platform, r))
+            }
+            Platform::PlaneBody => planar_body::solve(legs).map(|r| Poses::new(platform, r)),
+            Platform::TurningBody | Platform::FreeBody => {
+                return Err(KinematicsError::NoDirectModel(platform));
+            }
+        }
+        .map_err(|SelfMotion| KinematicsError::SelfMotion { robot: self.name.clone() })
+    }
+}
+
+/// Certifies and labels `poses`.
+fn labelled<const D: usize, const N: usize>(
+    robot: &Robot,
+    q: &[f64],
+    legs: &[Locked],
+    poses: &Poses,
+) -> DirectSolutions {
+    let mut solutions = Vec::with_capacity(poses.len());
+    let mut boxes: ArrayVec<[Interval; N], CAPACITY> = ArrayVec::new();
+    for pose in &poses.list {
+        let pose: [f64; N] = std::array::from_fn(|k| pose[k]);
+        let proof = certify::certify::<D, N>(robot.platform, legs, pose);
+        let certified = proof.is_some();
+        if let Some(found) = proof
+            && boxes.iter().all(|b| certify::disjoint(robot.platform, b, &found))
+        {
+            boxes.push(found);
+        }
+        let jacobians = super::jacobian::jacobians::<D, N>(robot, &pose, q);
+        let mode = jacobians.mode();
+        solutions.push(Solution {
+            within_limits: within_limits::<D>(robot, &pose, mode),
+            pose: pose.to_vec(),
+            q: q.to_vec(),
+            mode,
+            det_a: jacobians.det_a(),
+            residual: jacobians.residual,
+            certified,
+        });
+    }
+    DirectSolutions { solutions, complete: poses.at_most == Some(boxes.len()) }
+}
+
+/// Whether every joint is strictly within its limits at `pose` in `mode`.
+fn within_limits<const D: usize>(robot: &Robot, pose: &[f64], mode: WorkingMode) -> bool {
+    let placement = Placement::<f64, D>::at(robot.platform, pose);
+    robot.legs.iter().zip(mode.signs()).all(|(leg, sign)| {
+        let span = placement.span(leg, &placement.arm(leg));
+        let closure = eliminate(&leg.actuator, &span);
+        let at = LegAt { leg, span, closure, h: closure.reach.max(0.0).sqrt() };
+        leg.limits.iter().all(|limit| margin(limit, &at, f64::from(sign) * at.h, &placement) > 0.0)
+    })
+}

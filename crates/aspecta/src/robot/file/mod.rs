@@ -1,0 +1,72 @@
+//! Robot files: TOML in, a [`Robot`] or a message that says what to mend out. `docs/robot-files.md`
+//! describes the format.
+
+mod convert;
+mod error;
+mod format;
+mod limits;
+mod locate;
+mod schema;
+
+pub use error::{FileError, Mistake, Problem};
+
+use super::{Robot, catalogue};
+use locate::Fault;
+use serde::Deserialize;
+use std::path::Path;
+use toml::de::{DeTable, Deserializer};
+
+fn catalogue_names() -> String {
+    let names: Vec<_> = catalogue::all().iter().map(|e| e.name).collect();
+    names.join(", ")
+}
+
+impl Robot {
+    /// The robot that the TOML `text` describes. `file` is its name in messages.
+    ///
+    /// Every decimal becomes an interval that holds it, every direction one that holds the exact unit vector.
+    ///
+    /// # Errors
+    /// [`FileError::Invalid`], which names line, column, key and value.
+    pub fn from_toml(text: &str, file: &str) -> Result<Self, FileError> {
+        let tree = DeTable::parse(text).map_err(|e| Fault::from_parser(&e, text).locate(file, text, None))?;
+        format::RobotFile::deserialize(Deserializer::from(tree.clone()))
+            .map_err(|e| Fault::from_serde(&e, text))
+            .and_then(|table| convert::robot(&table, text))
+            .map_err(|fault| fault.locate(file, text, Some(tree.get_ref())))
+    }
+
+    /// The robot of a file.
+    ///
+    /// # Errors
+    /// [`FileError::Unreadable`] or [`FileError::Invalid`].
+    pub fn load(path: &Path) -> Result<Self, FileError> {
+        let file = path.display().to_string();
+        match std::fs::read_to_string(path) {
+            Ok(text) => Self::from_toml(&text, &file),
+            Err(reason) => Err(FileError::Unreadable { file, reason }),
+        }
+    }
+
+    /// The built-in robot of that name, else the robot of that file.
+    ///
+    /// # Errors
+    /// [`FileError::UnknownRobot`] if it is neither; else as [`Robot::load`].
+    pub fn resolve(name_or_path: &str) -> Result<Self, FileError> {
+        if let Some(entry) = catalogue::all().iter().find(|e| e.name == name_or_path) {
+            return Self::from_toml(entry.text, &format!("{name_or_path}.toml"));
+        }
+        let path = Path::new(name_or_path);
+        let names_a_file = path.extension().is_some() || name_or_path.contains(std::path::is_separator);
+        if path.exists() || names_a_file {
+            return Self::load(path);
+        }
+        let closest = error::closest(name_or_path, catalogue::all().iter().map(|e| e.name));
+        Err(FileError::UnknownRobot { name: name_or_path.to_owned(), closest })
+    }
+
+    /// The JSON Schema of robot files, as published in `robots/robot.schema.json`.
+    pub fn file_schema() -> schemars::Schema {
+        schema::schema()
+    }
+}
