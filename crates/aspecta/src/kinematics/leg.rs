@@ -7,7 +7,6 @@ use crate::num::{Interval, Scalar, each};
 use crate::robot::Actuator;
 
 /// f(d, q), the left side of the leg equation f = 0. Lengths squared, except for spherical legs (a cosine).
-#[inline(always)]
 pub fn equation<T: Scalar, const D: usize>(actuator: &Actuator, d: &[T; D], q: T) -> T {
     match actuator {
         Actuator::Revolute { crank, rod } => {
@@ -56,7 +55,6 @@ pub struct Closure<T, const D: usize> {
 /// where H = a² + b² − k² ≥ 0, namely (a² + b²)(cos q, sin q) = k(a, b) + s h(−b, a), and there
 /// ∂f/∂q = a sin q − b cos q = s h. Spherical legs are the same with (a, b) = −sin(proximal)(α, β),
 /// k = cos(proximal) γ − cos(distal), ‖d‖ = 1. Prismatic legs: q = α + s h, ∂f/∂q = 2 s h.
-#[inline(always)]
 pub fn eliminate<T: Scalar, const D: usize>(actuator: &Actuator, d: &[T; D]) -> Closure<T, D> {
     let zero = T::zero();
     let one = T::constant(Interval::point(1.0));
@@ -124,7 +122,6 @@ pub fn eliminate<T: Scalar, const D: usize>(actuator: &Actuator, d: &[T; D]) -> 
 }
 
 /// Σ dₖ².
-#[inline(always)]
 pub fn sum_of_squares<T: Scalar, const D: usize>(d: &[T; D]) -> T {
     let mut sum = d[0].square();
     for x in &d[1..] {
@@ -150,7 +147,6 @@ pub enum Drive<T> {
 }
 
 /// The driven joint q in the posture given by `sh` = s h: g_i(X) of (5), leg by leg.
-#[inline(always)]
 pub fn drive<T: Scalar, const D: usize>(
     actuator: &Actuator,
     d: &[T; D],

@@ -19,7 +19,6 @@ pub struct LegAt<'a, T, const D: usize> {
 
 /// c_k > 0: how far inside `limit` the leg is in posture s, where `sh` = s h. Zero at the limit. The unit differs
 /// from limit to limit; only the sign has a meaning.
-#[inline(always)]
 pub fn margin<T: Scalar, const D: usize>(
     limit: &Limit,
     at: &LegAt<'_, T, D>,
@@ -65,7 +64,6 @@ pub fn margin<T: Scalar, const D: usize>(
 }
 
 /// (2LM cos ψ, 2LM) with ψ the angle at B: ‖d‖² = L² + M² + 2LM cos ψ, and 2LM sin ψ = −s h.
-#[inline(always)]
 fn bend<T: Scalar, const D: usize>(at: &LegAt<'_, T, D>) -> (T, Interval) {
     match at.leg.actuator {
         Actuator::Revolute { crank, rod } => (
@@ -77,13 +75,11 @@ fn bend<T: Scalar, const D: usize>(at: &LegAt<'_, T, D>) -> (T, Interval) {
 }
 
 /// The rod's direction in the leg's frame, times [`rod_length`].
-#[inline(always)]
 fn rod_direction<T: Scalar, const D: usize>(at: &LegAt<'_, T, D>, sh: T) -> [T; D] {
     each!(|k| at.closure.fixed[k] + sh * at.closure.swing[k])
 }
 
 /// ‖weight · ∂f/∂d‖ = 2 M weight (2 q for a strut).
-#[inline(always)]
 fn rod_length<T: Scalar, const D: usize>(at: &LegAt<'_, T, D>) -> T {
     match at.leg.actuator {
         Actuator::Revolute { rod, .. } | Actuator::Prismatic { rod } => at.closure.weight.scale(rod + rod),

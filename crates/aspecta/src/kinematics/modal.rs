@@ -12,7 +12,6 @@ use crate::num::{Scalar, each};
 use crate::robot::Robot;
 
 /// Every leg at one pose (or box of poses), with q eliminated; h not yet chosen.
-#[inline(always)]
 pub fn closures<T: Scalar, const D: usize, const N: usize>(
     robot: &Robot,
     placement: &Placement<T, D>,
@@ -50,7 +49,6 @@ pub struct ModalRows<T, const N: usize> {
 
 impl<T: Scalar, const N: usize> ModalRows<T, N> {
     /// The rows, with h_j given.
-    #[inline(always)]
     pub fn new<const D: usize>(robot: &Robot, legs: &[LegClosure<T, D>; N], h: &[T; N]) -> Self {
         let mut rows = Self { fixed: [[T::zero(); N]; N], swing: [[T::zero(); N]; N] };
         for (j, at) in legs.iter().enumerate() {
@@ -68,7 +66,6 @@ impl<T: Scalar, const N: usize> ModalRows<T, N> {
     }
 
     /// Row j of A in posture s = `sign`, times the leg's weight.
-    #[inline(always)]
     pub fn row(&self, j: usize, sign: i8) -> [T; N] {
         let (a, b) = (&self.fixed[j], &self.swing[j]);
         if sign > 0 { each!(|k| a[k] + b[k]) } else { each!(|k| a[k] - b[k]) }
@@ -76,7 +73,6 @@ impl<T: Scalar, const N: usize> ModalRows<T, N> {
 
     /// [`ModalRows::det`] for each mode wanted, with its index; modes that differ in the first leg only share
     /// their minors.
-    #[inline(always)]
     pub fn dets(&self, modes: &[WorkingMode], wanted: u8, mut visit: impl FnMut(usize, T)) {
         let is_wanted = |m: usize| wanted >> m & 1 == 1;
         if N != 3 {
@@ -98,7 +94,6 @@ impl<T: Scalar, const N: usize> ModalRows<T, N> {
     }
 
     /// det A in `mode`, times the product of the weights: the sign is that of det A.
-    #[inline(always)]
     pub fn det(&self, mode: WorkingMode) -> T {
         let mut rows = [[T::zero(); N]; N];
         for j in 0..N {

@@ -12,7 +12,6 @@ pub struct Placement<T, const D: usize> {
 
 impl<T: Scalar, const D: usize> Placement<T, D> {
     /// The placement of the pose `x`; `turn(k)` gives (sin, cos) of the angle `x[k]`.
-    #[inline(always)]
     pub fn new(platform: Platform, x: &[T], turn: impl Fn(usize) -> (T, T)) -> Self {
         let zero = T::zero();
         let origin = |n: usize| each!(|k| if k < n { x[k] } else { zero });
@@ -37,13 +36,11 @@ impl<T: Scalar, const D: usize> Placement<T, D> {
     }
 
     /// The arm r = R c from the platform's origin to the leg's attachment, base frame.
-    #[inline(always)]
     pub fn arm(&self, leg: &Leg) -> [T; D] {
         self.turned(&leg.attachment)
     }
 
     /// A vector fixed in the platform, in the base frame.
-    #[inline(always)]
     pub fn turned(&self, v: &[crate::num::Interval; 3]) -> [T; D] {
         match &self.rotation {
             None => each!(|k| T::constant(v[k])),
@@ -52,7 +49,6 @@ impl<T: Scalar, const D: usize> Placement<T, D> {
     }
 
     /// d = C − A in the leg's own frame, `arm` being the leg's arm.
-    #[inline(always)]
     pub fn span(&self, leg: &Leg, arm: &[T; D]) -> [T; D] {
         let d: [T; D] = each!(|k| {
             // Constants first: for a platform that does not turn, arm and anchor are both constants.
@@ -66,7 +62,6 @@ impl<T: Scalar, const D: usize> Placement<T, D> {
 }
 
 /// R = R_z(yaw) R_y(pitch) R_x(roll), roll being coordinate `first`.
-#[inline(always)]
 fn spatial<T: Scalar, const D: usize>(turn: impl Fn(usize) -> (T, T), first: usize) -> [[T; D]; D] {
     let (sr, cr) = turn(first);
     let (sp, cp) = turn(first + 1);
@@ -80,13 +75,11 @@ fn spatial<T: Scalar, const D: usize>(turn: impl Fn(usize) -> (T, T), first: usi
 }
 
 /// A base vector in the leg's frame.
-#[inline(always)]
 pub fn into_frame<T: Scalar, const D: usize>(leg: &Leg, v: &[T; D]) -> [T; D] {
     each!(|k| dot_constant(&leg.frame[k][..D], v))
 }
 
 /// A vector of the leg's frame in the base.
-#[inline(always)]
 pub fn out_of_frame<T: Scalar, const D: usize>(leg: &Leg, v: &[T; D]) -> [T; D] {
     each!(|k| {
         let column = [leg.frame[0][k], leg.frame[1][k], leg.frame[2][k]];
@@ -99,7 +92,6 @@ pub fn out_of_frame<T: Scalar, const D: usize>(leg: &Leg, v: &[T; D]) -> [T; D] 
 ///
 /// For spatial rotations the derivative is with respect to the angular velocity in the base frame, not
 /// to the rates of roll, pitch and yaw, so det A has no singularity of representation.
-#[inline(always)]
 pub fn wrench<T: Scalar, const D: usize, const N: usize>(
     platform: Platform,
     g: &[T; D],
@@ -138,7 +130,6 @@ pub fn leg_gradient<T: Scalar, const D: usize>(leg: &Leg, d: &[T; D], q: T) -> (
 }
 
 /// The determinant, by expansion along the rows with shared minors: no division, so it holds for enclosures.
-#[inline(always)]
 pub fn determinant<T: Scalar, const N: usize>(m: &[[T; N]; N]) -> T {
     match N {
         2 => minor(&m[0], &m[1], 0, 1),
@@ -151,7 +142,6 @@ pub fn determinant<T: Scalar, const N: usize>(m: &[[T; N]; N]) -> T {
 }
 
 /// aᵢ bⱼ − aⱼ bᵢ.
-#[inline(always)]
 pub fn minor<T: Scalar, const N: usize>(a: &[T; N], b: &[T; N], i: usize, j: usize) -> T {
     a[i] * b[j] - a[j] * b[i]
 }

@@ -7,7 +7,7 @@ use std::str::FromStr;
 
 /// A vector of n signs, one per leg: sign(B_jj) = sign(∂f_j/∂q_j). Printed as `+-+`.
 ///
-/// Modes are ordered as in Table 1 read by binary counting from `++…+`, the last leg changing fastest.
+/// Modes are ordered as in Table 1: from `++…+`, each differing from the one before in one leg (Gray's code).
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct WorkingMode {
     /// Bit j set: B_jj < 0.
@@ -43,11 +43,12 @@ impl WorkingMode {
 }
 
 impl Robot {
-    /// All working modes, `+…+` first, the last leg's sign changing fastest. A leg with one inverse solution (a
+    /// All working modes in the order of Table 1 (`++`, `+-`, `--`, `-+`): each differs from the one before in one leg. A leg with one inverse solution (a
     /// strut, B = −2q < 0) contributes one sign.
     pub fn working_modes(&self) -> Vec<WorkingMode> {
         let n = self.dof();
         (0..1usize << n)
+            .map(|k| k ^ k >> 1)
             .map(|bits| WorkingMode::from_signs((0..n).map(|j| bits >> (n - 1 - j) & 1 == 0)))
             .filter(|m| (0..n).all(|j| self.legs[j].actuator.postures() == 2 || m.sign(j) < 0))
             .collect()

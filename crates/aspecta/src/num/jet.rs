@@ -17,7 +17,6 @@ pub struct Jet<T, const N: usize> {
 
 impl<T: Scalar, const N: usize> Jet<T, N> {
     /// The `k`-th variable, with value `value`.
-    #[inline(always)]
     pub fn variable(value: T, k: usize) -> Self {
         let mut gradient = [T::zero(); N];
         gradient[k] = T::constant(Interval::point(1.0));
@@ -25,38 +24,31 @@ impl<T: Scalar, const N: usize> Jet<T, N> {
     }
 
     /// A number that does not depend on the variables.
-    #[inline(always)]
     pub fn fixed(value: T) -> Self {
         Self { value, gradient: [T::zero(); N] }
     }
 
     /// A function of `self` with the given value and slope: the chain rule.
-    #[inline(always)]
     pub fn chain(self, value: T, slope: T) -> Self {
         Self { value, gradient: each!(|k| self.gradient[k] * slope) }
     }
 }
 
 impl<T: Scalar, const N: usize> Scalar for Jet<T, N> {
-    #[inline(always)]
     fn constant(c: Interval) -> Self {
         Self::fixed(T::constant(c))
     }
-    #[inline(always)]
     fn square(self) -> Self {
         self.chain(self.value.square(), self.value + self.value)
     }
-    #[inline(always)]
     fn sqrt(self) -> Self {
         let root = self.value.sqrt();
         self.chain(root, T::constant(Interval::point(0.5)) / root)
     }
-    #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
         let (s, c) = self.value.sin_cos();
         (self.chain(s, c), self.chain(c, -s))
     }
-    #[inline(always)]
     fn scale(self, c: Interval) -> Self {
         Self { value: self.value.scale(c), gradient: each!(|k| self.gradient[k].scale(c)) }
     }
@@ -64,7 +56,6 @@ impl<T: Scalar, const N: usize> Scalar for Jet<T, N> {
 
 impl<T: Scalar, const N: usize> Neg for Jet<T, N> {
     type Output = Self;
-    #[inline(always)]
     fn neg(self) -> Self {
         Self { value: -self.value, gradient: each!(|k| -self.gradient[k]) }
     }
@@ -72,7 +63,6 @@ impl<T: Scalar, const N: usize> Neg for Jet<T, N> {
 
 impl<T: Scalar, const N: usize> Add for Jet<T, N> {
     type Output = Self;
-    #[inline(always)]
     fn add(self, b: Self) -> Self {
         Self { value: self.value + b.value, gradient: each!(|k| self.gradient[k] + b.gradient[k]) }
     }
@@ -80,7 +70,6 @@ impl<T: Scalar, const N: usize> Add for Jet<T, N> {
 
 impl<T: Scalar, const N: usize> Sub for Jet<T, N> {
     type Output = Self;
-    #[inline(always)]
     fn sub(self, b: Self) -> Self {
         Self { value: self.value - b.value, gradient: each!(|k| self.gradient[k] - b.gradient[k]) }
     }
@@ -88,7 +77,6 @@ impl<T: Scalar, const N: usize> Sub for Jet<T, N> {
 
 impl<T: Scalar, const N: usize> Mul for Jet<T, N> {
     type Output = Self;
-    #[inline(always)]
     fn mul(self, b: Self) -> Self {
         Self {
             value: self.value * b.value,
@@ -99,7 +87,6 @@ impl<T: Scalar, const N: usize> Mul for Jet<T, N> {
 
 impl<T: Scalar, const N: usize> Div for Jet<T, N> {
     type Output = Self;
-    #[inline(always)]
     fn div(self, b: Self) -> Self {
         let value = self.value / b.value;
         Self { value, gradient: each!(|k| (self.gradient[k] - value * b.gradient[k]) / b.value) }

@@ -96,7 +96,7 @@ macro_rules! each {
 pub(crate) use each;
 
 /// Σ aₖ bₖ.
-#[inline(always)]
+#[inline]
 pub fn dot<T: Scalar, const D: usize>(a: &[T; D], b: &[T; D]) -> T {
     let mut sum = a[0] * b[0];
     for k in 1..D {
@@ -106,7 +106,7 @@ pub fn dot<T: Scalar, const D: usize>(a: &[T; D], b: &[T; D]) -> T {
 }
 
 /// Σ cₖ aₖ with constant cₖ: exact zeros cost nothing.
-#[inline(always)]
+#[inline]
 pub fn dot_constant<T: Scalar, const D: usize>(c: &[Interval], a: &[T; D]) -> T {
     let mut sum: Option<T> = None;
     for k in 0..D {

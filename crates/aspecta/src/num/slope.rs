@@ -57,6 +57,9 @@ impl Enclosure for Pack {
 ///
 /// > f(c + r∘t) ∈ f(c) + Σ sₖ tₖ.
 ///
+/// Operations are calls, not inlined: over packs each is several hundred instructions, and a kernel made of hundreds of
+/// them would neither fit the instruction cache nor compile in reasonable time.
+///
 /// The rules are those of Krawczyk and Neumaier (1985). For the same cost as a gradient over the box, a slope is
 /// about half as wide, so the centred form is twice as tight; and the slope of √f is bounded where f
 /// reaches zero inside the box, where the derivative is not.
@@ -72,7 +75,6 @@ pub struct Slope<T, const N: usize> {
 
 impl<T: Enclosure, const N: usize> Slope<T, N> {
     /// The `k`-th coordinate, centre + radius·t.
-    #[inline(always)]
     pub fn variable(range: T, centre: T, radius: T, k: usize) -> Self {
         let mut slope = [T::zero(); N];
         slope[k] = radius;
@@ -81,26 +83,25 @@ impl<T: Enclosure, const N: usize> Slope<T, N> {
 
     /// A function of `self`, with its range, its value at the centre, and an enclosure of
     /// (φ(f(x)) − φ(f(c))) / (f(x) − f(c)).
-    #[inline(always)]
+    #[inline(never)]
     pub fn chain(self, range: T, centre: T, quotient: T) -> Self {
         Self { range, centre, slope: each!(|k| self.slope[k] * quotient) }
     }
 }
 
 impl<T: Enclosure, const N: usize> Scalar for Slope<T, N> {
-    #[inline(always)]
     fn constant(c: Interval) -> Self {
         let value = T::constant(c);
         Self { range: value, centre: value, slope: [T::zero(); N] }
     }
 
-    #[inline(always)]
+    #[inline(never)]
     fn square(self) -> Self {
         self.chain(self.range.square(), self.centre.square(), self.range + self.centre)
     }
 
     /// Holds for the x with f(x) ≥ 0.
-    #[inline(always)]
+    #[inline(never)]
     fn sqrt(self) -> Self {
         let f = self.tightened();
         let (centre, quotient) = T::root_slope(f.range, f.centre);
@@ -114,7 +115,7 @@ impl<T: Enclosure, const N: usize> Scalar for Slope<T, N> {
         (self.chain(sin, sin_c, cos), self.chain(cos, cos_c, -sin))
     }
 
-    #[inline(always)]
+    #[inline(never)]
     fn scale(self, c: Interval) -> Self {
         Self {
             range: self.range.scale(c),
@@ -124,7 +125,7 @@ impl<T: Enclosure, const N: usize> Scalar for Slope<T, N> {
     }
 
     /// The range cut by the centred form.
-    #[inline(always)]
+    #[inline(never)]
     fn tightened(self) -> Self {
         let mut spread = self.slope[0].symmetric();
         for k in 1..N {
@@ -136,7 +137,7 @@ impl<T: Enclosure, const N: usize> Scalar for Slope<T, N> {
 
 impl<T: Scalar, const N: usize> Neg for Slope<T, N> {
     type Output = Self;
-    #[inline(always)]
+    #[inline(never)]
     fn neg(self) -> Self {
         Self { range: -self.range, centre: -self.centre, slope: each!(|k| -self.slope[k]) }
     }
@@ -144,7 +145,7 @@ impl<T: Scalar, const N: usize> Neg for Slope<T, N> {
 
 impl<T: Scalar, const N: usize> Add for Slope<T, N> {
     type Output = Self;
-    #[inline(always)]
+    #[inline(never)]
     fn add(self, b: Self) -> Self {
         Self {
             range: self.range + b.range,
@@ -156,7 +157,7 @@ impl<T: Scalar, const N: usize> Add for Slope<T, N> {
 
 impl<T: Scalar, const N: usize> Sub for Slope<T, N> {
     type Output = Self;
-    #[inline(always)]
+    #[inline(never)]
     fn sub(self, b: Self) -> Self {
         Self {
             range: self.range - b.range,
@@ -169,7 +170,7 @@ impl<T: Scalar, const N: usize> Sub for Slope<T, N> {
 impl<T: Scalar, const N: usize> Mul for Slope<T, N> {
     type Output = Self;
     /// f(x)g(x) − f(c)g(c) = (f(x) − f(c)) g(c) + f(x) (g(x) − g(c)).
-    #[inline(always)]
+    #[inline(never)]
     fn mul(self, b: Self) -> Self {
         Self {
             range: self.range * b.range,
@@ -182,7 +183,7 @@ impl<T: Scalar, const N: usize> Mul for Slope<T, N> {
 impl<T: Scalar, const N: usize> Div for Slope<T, N> {
     type Output = Self;
     /// (f/g)(x) − (f/g)(c) = ((f(x) − f(c)) − (f/g)(c) (g(x) − g(c))) / g(x).
-    #[inline(always)]
+    #[inline(never)]
     fn div(self, b: Self) -> Self {
         let centre = self.centre / b.centre;
         Self {

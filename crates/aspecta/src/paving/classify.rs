@@ -64,7 +64,6 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
 
     /// Classifies eight boxes given by their corners; each inherits what its parent proved and has
     /// `inside`, `undecided` and `closed` set.
-    #[inline(always)]
     pub(super) fn classify(&self, boxes: &mut [Node; LANES]) {
         let slabs: [[&Slab; LANES]; N] =
             std::array::from_fn(|k| std::array::from_fn(|l| self.slab(k, &boxes[l].corner)));
@@ -86,7 +85,6 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
         self.decide(boxes, &placement);
     }
 
-    #[inline(always)]
     fn decide(&self, boxes: &mut [Node; LANES], placement: &Placement<Slope<Pack, M>, D>) {
         let legs = closures::<_, D, N>(self.robot, placement);
         let mut closes = [true; LANES];
@@ -124,7 +122,6 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
     }
 
     /// Whether the limits of each leg and posture are kept or broken.
-    #[inline(always)]
     fn limits(
         &self,
         legs: &[LegClosure<Slope<Pack, M>, D>; N],

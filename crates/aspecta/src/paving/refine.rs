@@ -99,51 +99,8 @@ fn refine<const D: usize, const N: usize, const M: usize>(
     paving
 }
 
-/// The 2^M children of each parent, classified, in order, with the widest vector instructions the
-/// processor has. Intervals use no fused operations, so all give the same bits.
+/// The 2^M children of each parent, classified, in order.
 fn subdivide<const D: usize, const N: usize, const M: usize>(
-    nodes: &[Node],
-    parents: &[u32],
-    classifier: &Classifier<'_, D, N, M>,
-) -> Vec<Node> {
-    #[cfg(target_arch = "x86_64")]
-    {
-        if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq") {
-            // SAFETY: the processor has the features, as just checked.
-            #[allow(unsafe_code)]
-            return unsafe { subdivide_avx512(nodes, parents, classifier) };
-        }
-        if is_x86_feature_detected!("avx2") {
-            // SAFETY: the processor has the feature, as just checked.
-            #[allow(unsafe_code)]
-            return unsafe { subdivide_avx2(nodes, parents, classifier) };
-        }
-    }
-    subdivide_with(nodes, parents, classifier)
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512dq")]
-fn subdivide_avx512<const D: usize, const N: usize, const M: usize>(
-    nodes: &[Node],
-    parents: &[u32],
-    classifier: &Classifier<'_, D, N, M>,
-) -> Vec<Node> {
-    subdivide_with(nodes, parents, classifier)
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn subdivide_avx2<const D: usize, const N: usize, const M: usize>(
-    nodes: &[Node],
-    parents: &[u32],
-    classifier: &Classifier<'_, D, N, M>,
-) -> Vec<Node> {
-    subdivide_with(nodes, parents, classifier)
-}
-
-#[inline(always)]
-fn subdivide_with<const D: usize, const N: usize, const M: usize>(
     nodes: &[Node],
     parents: &[u32],
     classifier: &Classifier<'_, D, N, M>,
