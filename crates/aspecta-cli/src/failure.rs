@@ -2,6 +2,7 @@
 
 use aspecta::aspect::AnalysisError;
 use aspecta::kinematics::KinematicsError;
+use aspecta::motion::PathError;
 use aspecta::robot::FileError;
 use std::io;
 
@@ -36,6 +37,9 @@ pub enum Failure {
     /// It cannot be analysed.
     #[error(transparent)]
     Analysis(#[from] AnalysisError),
+    /// The path cannot be checked.
+    #[error(transparent)]
+    Path(#[from] PathError),
     /// Results cannot be written.
     #[error("cannot write the results: {0}")]
     Output(#[from] io::Error),

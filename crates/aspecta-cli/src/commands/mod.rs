@@ -3,6 +3,7 @@
 mod analyze;
 mod budget;
 mod check;
+mod check_path;
 mod completions;
 mod fk;
 mod ik;
@@ -28,6 +29,8 @@ pub enum Command {
     Fk(fk::Fk),
     /// Jacobians, working mode and nearness to singularities of a configuration
     State(state::State),
+    /// Prove that a path of straight segments meets no singularity, or find where it does
+    CheckPath(check_path::CheckPath),
     /// List the robots of the catalogue, or show one's file
     Robots(robots::Robots),
     /// Check a robot file
@@ -46,6 +49,7 @@ impl Command {
             Self::Ik(command) => command.run(out),
             Self::Fk(command) => command.run(out),
             Self::State(command) => command.run(out),
+            Self::CheckPath(command) => command.run(out),
             Self::Robots(command) => command.run(out),
             Self::Check(command) => command.run(out),
             Self::Schema(command) => command.run(out),

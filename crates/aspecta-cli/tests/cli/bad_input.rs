@@ -33,6 +33,7 @@ fn missing_or_contradictory_arguments() {
     refused("ik five-bar --pose 1,2 --file x.csv", &["cannot be used with"]);
     refused("ik five-bar --pose 1,2 --json --csv", &["cannot be used with"]);
     refused("state five-bar --pose 1,2 --q 1,2 --mode ++", &["cannot be used with"]);
+    refused("check-path five-bar path.csv", &["--mode"]);
 }
 
 #[test]

@@ -48,14 +48,14 @@ fn robots_lists_the_catalogue_and_shows_files() {
 #[test]
 fn completions_name_the_commands() {
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
-        assert!(stdout(&format!("completions {shell}")).contains("analyze"), "{shell}");
+        assert!(stdout(&format!("completions {shell}")).contains("check-path"), "{shell}");
     }
 }
 
 #[test]
 fn help_lists_the_commands_and_exit_statuses() {
     let text = stdout("--help");
-    for word in ["analyze", "ik", "fk", "state", "robots", "check", "schema", "Exit status"] {
+    for word in ["analyze", "ik", "fk", "state", "check-path", "robots", "check", "schema", "Exit status"] {
         assert!(text.contains(word), "{word} in\n{text}");
     }
 }

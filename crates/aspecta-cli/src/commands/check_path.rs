@@ -1,0 +1,125 @@
+//! `aspecta check-path`: whether a path of straight segments meets a singularity.
+
+use super::queries::{Labels, det_a_unit};
+use crate::failure::{Answer, Failure};
+use crate::input::{self, Columns};
+use crate::output::{FORMAT_VERSION, Format, FormatArgs, exact, json, number};
+use aspecta::kinematics::modal::Constraint;
+use aspecta::motion::{Obstacle, PathCheck, check_path};
+use aspecta::robot::Robot;
+use clap::Args;
+use serde::Serialize;
+use std::io::Write;
+
+/// Arguments of `check-path`.
+#[derive(Args)]
+pub struct CheckPath {
+    /// Name from `aspecta robots`, or path of a robot file
+    robot: String,
+    /// A CSV file of poses, one a line, joined by straight segments; `-` reads stdin
+    path: String,
+    /// The working mode the robot stays in, such as `+-+`
+    #[arg(long, allow_hyphen_values = true)]
+    mode: String,
+    /// Angles of the file and of what people read are in degrees
+    #[arg(long)]
+    deg: bool,
+    #[command(flatten)]
+    format: FormatArgs,
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    format_version: u32,
+    robot: &'a str,
+    #[serde(flatten)]
+    check: &'a PathCheck,
+}
+
+impl CheckPath {
+    pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
+        let robot = input::robot(&self.robot)?;
+        let mode = input::mode(&robot, &self.mode)?;
+        let rows = input::rows(&self.path, &[Columns::pose(&robot)], self.deg)?;
+        let poses: Vec<_> = rows.into_iter().map(|row| row.values).collect();
+        let check = check_path(&robot, &poses, mode)?;
+        match self.format.format() {
+            Format::Json => {
+                json(out, &Document { format_version: FORMAT_VERSION, robot: &robot.name, check: &check })?;
+            }
+            Format::Csv => print_profile(out, &robot, &check)?,
+            Format::Table => print(out, &robot, &check, poses.len(), self.deg)?,
+        }
+        Ok(Answer::from(check.singularity_free == Some(true) && check.within_limits == Some(true)))
+    }
+}
+
+/// Figure 11: det A and the B_jj along the path, each divided by its largest modulus.
+fn print_profile(out: &mut dyn Write, robot: &Robot, check: &PathCheck) -> Result<(), Failure> {
+    let mut csv = csv::Writer::from_writer(out);
+    let names = Columns::pose(robot).and(&Columns::joints(robot)).names;
+    let b = (1..=robot.dof()).map(|j| format!("b_{j}{j}"));
+    let first = ["segment", "t"].map(String::from);
+    csv.write_record(first.into_iter().chain(names).chain(["det_a".into()]).chain(b))?;
+    for p in &check.profile {
+        let numbers = [&p.t].into_iter().chain(&p.pose).chain(&p.q).chain([&p.det_a]).chain(&p.b);
+        csv.write_record([p.segment.to_string()].into_iter().chain(numbers.map(|x| exact(*x))))?;
+    }
+    csv.flush()?;
+    Ok(())
+}
+
+fn print(
+    out: &mut dyn Write,
+    robot: &Robot,
+    check: &PathCheck,
+    poses: usize,
+    degrees: bool,
+) -> Result<(), Failure> {
+    let (pose, joints) = (Labels::pose(robot, degrees), Labels::joints(robot, degrees));
+    writeln!(out, "{}, working mode {}, {poses} poses joined by straight segments", robot.name, check.mode)?;
+    let free = match check.singularity_free {
+        Some(true) => "yes, certified: det A keeps its sign and no B_jj vanishes all along",
+        Some(false) => "no, certified",
+        None => "undecided",
+    };
+    writeln!(out, "singularity-free  {free}")?;
+    let within = match check.within_limits {
+        Some(true) if robot.legs.iter().all(|leg| leg.limits.is_empty()) => "yes (the robot has no limits)",
+        Some(true) => "yes, certified",
+        Some(false) => "no, certified",
+        None => "undecided",
+    };
+    writeln!(out, "within limits     {within}")?;
+    if let Some(obstacle) = &check.obstacle {
+        writeln!(out, "obstacle          {}", describe(obstacle))?;
+        writeln!(out, "                  near {}", pose.sentence(&obstacle.pose))?;
+    }
+    let least = &check.min_abs_det_a;
+    let unit = det_a_unit(robot);
+    writeln!(
+        out,
+        "min |det A|       {}{unit}, segment {}, t = {}",
+        number(least.value),
+        least.segment,
+        number(least.t)
+    )?;
+    writeln!(out, "                  at {}", pose.sentence(&least.pose))?;
+    for (name, q) in ["start", "end"].iter().zip(&check.ends) {
+        let q = q.as_ref().map_or("out of reach".to_owned(), |q| joints.sentence(q));
+        writeln!(out, "{:<18}{q}", format!("joints, {name}"))?;
+    }
+    Ok(())
+}
+
+/// What fails, and where along the path.
+fn describe(obstacle: &Obstacle) -> String {
+    let what = match obstacle.constraint {
+        Constraint::Det => "det A vanishes or changes sign (parallel singularity)".to_owned(),
+        Constraint::Reach(j) => format!("leg {} reaches its limit (serial singularity)", j + 1),
+        Constraint::Limit(j, k) => format!("leg {} meets its joint limit {}", j + 1, k + 1),
+    };
+    let doubt = if obstacle.proved { "" } else { "not excluded: " };
+    let (from, to) = obstacle.t;
+    format!("{doubt}{what}, segment {}, t = {} … {}", obstacle.segment, number(from), number(to))
+}
