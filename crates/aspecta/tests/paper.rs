@@ -27,7 +27,7 @@ fn table_1_signs_of_b() {
     let (x, y) = (4.0, 7.0);
     let solutions = robot.inverse(&[x, y]).unwrap();
     let names: Vec<_> = solutions.iter().map(|s| s.mode.to_string()).collect();
-    assert_eq!(names, ["++", "+-", "-+", "--"]);
+    assert_eq!(names, ["++", "+-", "--", "-+"]);
     for s in &solutions {
         let (t1, t2) = (s.q[0], s.q[1]);
         let b11 = 8.0 * t1.sin() * (x - 8.0 * t1.cos()) - 8.0 * t1.cos() * (y - 8.0 * t1.sin());

@@ -31,7 +31,7 @@ fn ik_of_the_five_bar() {
     assert_eq!(document["robot"], "five-bar");
     let found = solutions(&document);
     let modes: Vec<_> = found.iter().map(|s| s["mode"].as_str().unwrap()).collect();
-    assert_eq!(modes, ["++", "+-", "-+", "--"]);
+    assert_eq!(modes, ["++", "+-", "--", "-+"]);
     for s in found {
         assert_eq!(numbers(&s["pose"]), [4.0, 7.0]);
         let [l3, l4] = five_bar_lengths(&[4.0, 7.0], &numbers(&s["q"]));

@@ -21,7 +21,7 @@ pub enum Along {
         /// End of the stretch, t.
         to: f64,
     },
-    /// Neither could be proved on [`from`, `to`] (t), shorter than 2⁻⁴⁰ or beyond the effort allowed.
+    /// Neither could be proved on [`from`, `to`] (t), shorter than 10⁻¹² or beyond the effort allowed.
     Undecided {
         /// Which constraint is in doubt.
         constraint: Constraint,
@@ -31,6 +31,9 @@ pub enum Along {
         to: f64,
     },
 }
+
+/// Stretches of t shorter than this are not bisected further.
+const SHORTEST: f64 = 1e-12;
 
 /// Decides whether the segment from `start` to `end` lies in the aspect class (`mode`, det A of sign `sign`),
 /// in at most `effort` interval evaluations.
@@ -53,13 +56,22 @@ fn along_in<const D: usize, const N: usize>(
 ) -> Along {
     let mut open = vec![(0.0, 1.0)];
     let mut spent = 0;
+    let mut doubt: Option<(Constraint, f64, f64)> = None;
     while let Some((from, to)) = open.pop() {
         spent += 1;
         match stretch::<D, N>(robot, mode, sign, start, end, Interval::new(from, to)) {
             Stretch::Inside => {}
-            Stretch::Outside(constraint) => return Along::Outside { constraint, from, to },
-            Stretch::Open(constraint) if spent >= effort || to - from < 1e-12 => {
+            // The doubt before it, if any, is where the failure begins.
+            Stretch::Outside(constraint) => {
+                let (constraint, from, _) = doubt.unwrap_or((constraint, from, to));
+                return Along::Outside { constraint, from, to };
+            }
+            Stretch::Open(constraint) if spent >= effort => {
+                let (constraint, from, to) = doubt.unwrap_or((constraint, from, to));
                 return Along::Undecided { constraint, from, to };
+            }
+            Stretch::Open(constraint) if to - from < SHORTEST => {
+                doubt.get_or_insert((constraint, from, to));
             }
             Stretch::Open(_) => {
                 let middle = 0.5 * (from + to);
@@ -68,7 +80,10 @@ fn along_in<const D: usize, const N: usize>(
             }
         }
     }
-    Along::Inside
+    match doubt {
+        None => Along::Inside,
+        Some((constraint, from, to)) => Along::Undecided { constraint, from, to },
+    }
 }
 
 enum Stretch {

@@ -17,7 +17,7 @@ impl Paving {
         let axes = self.window.axes();
         let glued: Vec<usize> = (0..axes.len()).filter(|&a| self.window.glued[axes[a]]).collect();
         // The window's neighbour across each set of glued axes is the window itself.
-        for wrap in offsets(axes.len()).filter(|o| is_first(o)) {
+        for wrap in offsets(axes.len()).filter(is_first) {
             if (0..3).all(|a| wrap[a] == 0 || glued.contains(&a)) {
                 self.between(0, 0, wrap, sight, visit);
             }
