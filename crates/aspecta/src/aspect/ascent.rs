@@ -82,7 +82,7 @@ fn climb<const D: usize, const N: usize>(
     let mut met = Vec::new();
     let start = paving.centre(components.pieces[from as usize].largest);
     let mut x = SVector::<f64, N>::from_column_slice(&start);
-    let free: [bool; N] = std::array::from_fn(|k| paving.window.axes().contains(&k));
+    let free: [bool; N] = std::array::from_fn(|k| paving.axes.contains(&k));
     for _ in 0..STEPS {
         let Some((height, direction)) = uphill::<D, N>(robot, class, &x, &free) else { break };
         let Some(next) = step::<D, N>(robot, paving, class, &x, height, &direction) else { break };

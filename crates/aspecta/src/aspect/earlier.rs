@@ -8,6 +8,7 @@ use super::result::{EarlierAspects, EarlierDomain, Sample};
 use crate::kinematics::WorkingMode;
 use crate::paving::{ClassSet, Mark, Node, Paving};
 use crate::robot::Robot;
+use rayon::prelude::*;
 
 /// Definition 5: where det A > 0 in some working mode, and where it is < 0 in some.
 pub(super) fn parallel_aspects(robot: &Robot, paving: &Paving) -> Vec<EarlierAspects> {
@@ -16,7 +17,7 @@ pub(super) fn parallel_aspects(robot: &Robot, paving: &Paving) -> Vec<EarlierAsp
     let both = |node: &Node| intersection(node.of_classes(plus), node.of_classes(minus));
     let overlap = measure(paving, &both);
     [("det A > 0", plus), ("det A < 0", minus)]
-        .into_iter()
+        .into_par_iter()
         .map(|(name, classes)| EarlierAspects {
             name: name.into(),
             domains: domains(robot, paving, &|node| node.of_classes(classes), &|node| {
@@ -39,7 +40,7 @@ pub(super) fn serial_aspects(robot: &Robot, paving: &Paving) -> Vec<EarlierAspec
             overlap: if next == m { 0.0 } else { measure(paving, &shared) },
         }
     };
-    paving.modes.iter().enumerate().map(entry).collect()
+    paving.modes.par_iter().enumerate().map(entry).collect()
 }
 
 fn intersection(a: Mark, b: Mark) -> Mark {

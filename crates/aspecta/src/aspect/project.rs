@@ -37,8 +37,7 @@ pub(super) fn hull(mut ranges: Vec<Interval>, circular: bool) -> (f64, f64) {
 
 /// Bounds, per pose coordinate, of the given boxes.
 pub(super) fn w_bounds(paving: &Paving, boxes: &[u32]) -> Vec<(f64, f64)> {
-    let axes = paving.window.axes();
-    let bound = |k: usize| match axes.iter().position(|&axis| axis == k) {
+    let bound = |k: usize| match paving.axes.iter().position(|&axis| axis == k) {
         None => paving.window.ranges[k],
         Some(a) => {
             let range = |&node: &u32| {
@@ -72,7 +71,7 @@ fn joints_over<const D: usize, const N: usize>(
 ) -> Vec<Interval> {
     let (lo, hi) = paving.bounds(node);
     let mut x: [Interval; N] = std::array::from_fn(|k| Interval::point(paving.window.ranges[k].0));
-    for (a, k) in paving.window.axes().into_iter().enumerate() {
+    for (a, k) in paving.axes.iter().copied().enumerate() {
         x[k] = Interval::new(lo[a], hi[a]);
     }
     let legs = closures::<Interval, D, N>(robot, &Placement::at(robot.platform, &x));

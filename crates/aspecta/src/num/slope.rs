@@ -53,12 +53,43 @@ impl Enclosure for Pack {
     }
 }
 
+/// Runs a kernel on references as one outlined call, compiled for AVX2 where the processor has it.
+///
+/// Intervals use no fused operations, so the bits do not depend on the instructions. The 3-RRR's paving takes
+/// 0.75 times as long with it (`cargo bench --bench paving`).
+macro_rules! kernel {
+    ($bound:ident, ($($arg:ident: $type:ty),*) -> $out:ty $body:block) => {{
+        #[inline(always)]
+        fn body<T: $bound, const N: usize>($($arg: $type),*) -> $out $body
+
+        #[inline(never)]
+        fn plain<T: $bound, const N: usize>($($arg: $type),*) -> $out {
+            body($($arg),*)
+        }
+
+        #[cfg(target_arch = "x86_64")]
+        {
+            #[inline(never)]
+            #[target_feature(enable = "avx2")]
+            fn wide<T: $bound, const N: usize>($($arg: $type),*) -> $out {
+                body($($arg),*)
+            }
+            if is_x86_feature_detected!("avx2") {
+                // SAFETY: the processor has the feature, as just checked.
+                #[allow(unsafe_code)]
+                return unsafe { wide($($arg),*) };
+            }
+        }
+        plain($($arg),*)
+    }};
+}
+
 /// A function f over a box c + r∘t, t ∈ [−1, 1]^N: its range, its value at the centre c, and slopes s with
 ///
 /// > f(c + r∘t) ∈ f(c) + Σ sₖ tₖ.
 ///
-/// Operations are calls, not inlined: over packs each is several hundred instructions, and a kernel made of hundreds of
-/// them would neither fit the instruction cache nor compile in reasonable time.
+/// Sums and products are calls on references, not inlined: over packs each is several hundred instructions, and a
+/// kernel made of hundreds of them would neither fit the instruction cache nor compile in reasonable time.
 ///
 /// The rules are those of Krawczyk and Neumaier (1985). For the same cost as a gradient over the box, a slope is
 /// about half as wide, so the centred form is twice as tight; and the slope of √f is bounded where f
@@ -95,9 +126,13 @@ impl<T: Enclosure, const N: usize> Scalar for Slope<T, N> {
         Self { range: value, centre: value, slope: [T::zero(); N] }
     }
 
-    #[inline(never)]
+    #[inline(always)]
     fn square(self) -> Self {
-        self.chain(self.range.square(), self.centre.square(), self.range + self.centre)
+        let f = &self;
+        kernel!(Enclosure, (f: &Slope<T, N>) -> Slope<T, N> {
+            let quotient = f.range + f.centre;
+            Slope { range: f.range.square(), centre: f.centre.square(), slope: each!(|k| f.slope[k] * quotient) }
+        })
     }
 
     /// Holds for the x with f(x) ≥ 0.
@@ -115,23 +150,29 @@ impl<T: Enclosure, const N: usize> Scalar for Slope<T, N> {
         (self.chain(sin, sin_c, cos), self.chain(cos, cos_c, -sin))
     }
 
-    #[inline(never)]
+    #[inline(always)]
     fn scale(self, c: Interval) -> Self {
-        Self {
-            range: self.range.scale(c),
-            centre: self.centre.scale(c),
-            slope: each!(|k| self.slope[k].scale(c)),
+        if c == Interval::point(1.0) {
+            return self;
         }
+        let f = &self;
+        let c = &c;
+        kernel!(Scalar, (f: &Slope<T, N>, c: &Interval) -> Slope<T, N> {
+            Slope { range: f.range.scale(*c), centre: f.centre.scale(*c), slope: each!(|k| f.slope[k].scale(*c)) }
+        })
     }
 
     /// The range cut by the centred form.
-    #[inline(never)]
+    #[inline(always)]
     fn tightened(self) -> Self {
-        let mut spread = self.slope[0].symmetric();
-        for k in 1..N {
-            spread = spread + self.slope[k].symmetric();
-        }
-        Self { range: self.range.meet(self.centre + spread), ..self }
+        let f = &self;
+        kernel!(Enclosure, (f: &Slope<T, N>) -> Slope<T, N> {
+            let mut spread = f.slope[0].symmetric();
+            for k in 1..N {
+                spread = spread + f.slope[k].symmetric();
+            }
+            Slope { range: f.range.meet(f.centre + spread), ..*f }
+        })
     }
 }
 
@@ -145,38 +186,50 @@ impl<T: Scalar, const N: usize> Neg for Slope<T, N> {
 
 impl<T: Scalar, const N: usize> Add for Slope<T, N> {
     type Output = Self;
-    #[inline(never)]
+    #[inline(always)]
     fn add(self, b: Self) -> Self {
-        Self {
-            range: self.range + b.range,
-            centre: self.centre + b.centre,
-            slope: each!(|k| self.slope[k] + b.slope[k]),
-        }
+        let a = &self;
+        let b = &b;
+        kernel!(Scalar, (a: &Slope<T, N>, b: &Slope<T, N>) -> Slope<T, N> {
+            Slope {
+                range: a.range + b.range,
+                centre: a.centre + b.centre,
+                slope: each!(|k| a.slope[k] + b.slope[k]),
+            }
+        })
     }
 }
 
 impl<T: Scalar, const N: usize> Sub for Slope<T, N> {
     type Output = Self;
-    #[inline(never)]
+    #[inline(always)]
     fn sub(self, b: Self) -> Self {
-        Self {
-            range: self.range - b.range,
-            centre: self.centre - b.centre,
-            slope: each!(|k| self.slope[k] - b.slope[k]),
-        }
+        let a = &self;
+        let b = &b;
+        kernel!(Scalar, (a: &Slope<T, N>, b: &Slope<T, N>) -> Slope<T, N> {
+            Slope {
+                range: a.range - b.range,
+                centre: a.centre - b.centre,
+                slope: each!(|k| a.slope[k] - b.slope[k]),
+            }
+        })
     }
 }
 
 impl<T: Scalar, const N: usize> Mul for Slope<T, N> {
     type Output = Self;
     /// f(x)g(x) − f(c)g(c) = (f(x) − f(c)) g(c) + f(x) (g(x) − g(c)).
-    #[inline(never)]
+    #[inline(always)]
     fn mul(self, b: Self) -> Self {
-        Self {
-            range: self.range * b.range,
-            centre: self.centre * b.centre,
-            slope: each!(|k| self.slope[k] * b.centre + self.range * b.slope[k]),
-        }
+        let a = &self;
+        let b = &b;
+        kernel!(Scalar, (a: &Slope<T, N>, b: &Slope<T, N>) -> Slope<T, N> {
+            Slope {
+                range: a.range * b.range,
+                centre: a.centre * b.centre,
+                slope: each!(|k| a.slope[k] * b.centre + a.range * b.slope[k]),
+            }
+        })
     }
 }
 

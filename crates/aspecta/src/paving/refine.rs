@@ -47,7 +47,7 @@ fn refine<const D: usize, const N: usize, const M: usize>(
     let all = ((1u32 << (2 * modes.len())) - 1) as ClassSet;
     let mut paving = Paving {
         window: window.clone(),
-        dimension: M,
+        axes: window.axes(),
         modes: modes.to_vec(),
         nodes: vec![Node { undecided: all, ..Node::default() }],
         levels: vec![0, 1],

@@ -13,31 +13,35 @@ type Offset = [i8; 3];
 impl Paving {
     /// Visits every pair of boxes of a set (boxes as in [`Paving::boxes_of`]) that share a point.
     pub fn touching(&self, sight: &impl Fn(&Node) -> Mark, visit: &mut impl FnMut(u32, u32)) {
-        self.within(0, sight, visit);
-        let axes = self.window.axes();
-        let glued: Vec<usize> = (0..axes.len()).filter(|&a| self.window.glued[axes[a]]).collect();
+        let walk = Walk { paving: self, steps: Steps::new(self.axes.len()) };
+        walk.within(0, sight, visit);
+        let glued: Vec<bool> = self.axes.iter().map(|&k| self.window.glued[k]).collect();
         // The window's neighbour across each set of glued axes is the window itself.
-        for wrap in offsets(axes.len()).filter(is_first) {
-            if (0..3).all(|a| wrap[a] == 0 || glued.contains(&a)) {
-                self.between(0, 0, wrap, sight, visit);
+        for wrap in offsets(self.axes.len()).filter(is_first) {
+            if (0..self.axes.len()).all(|a| wrap[a] == 0 || glued[a]) {
+                walk.between(0, 0, number(wrap), sight, visit);
             }
         }
     }
+}
 
+struct Walk<'a> {
+    paving: &'a Paving,
+    steps: Steps,
+}
+
+impl Walk<'_> {
     /// Pairs inside one node.
     fn within(&self, at: u32, sight: &impl Fn(&Node) -> Mark, visit: &mut impl FnMut(u32, u32)) {
-        let node = &self.nodes[at as usize];
+        let node = &self.paving.nodes[at as usize];
         if node.first_child == 0 || sight(node) != Mark::Open {
             return;
         }
-        let first = node.first_child;
-        let count = 1 << self.dimension;
-        for i in 0..count {
-            self.within(first + i, sight, visit);
-            for j in i + 1..count {
-                let offset = std::array::from_fn(|a| (j >> a & 1) as i8 - (i >> a & 1) as i8);
-                self.between(first + i, first + j, offset, sight, visit);
-            }
+        for child in self.paving.children(at) {
+            self.within(child, sight, visit);
+        }
+        for &(i, j, offset) in &self.steps.siblings {
+            self.between(node.first_child + i, node.first_child + j, offset, sight, visit);
         }
     }
 
@@ -46,38 +50,73 @@ impl Paving {
         &self,
         a: u32,
         b: u32,
-        offset: Offset,
+        offset: usize,
         sight: &impl Fn(&Node) -> Mark,
         visit: &mut impl FnMut(u32, u32),
     ) {
-        let (node_a, node_b) = (&self.nodes[a as usize], &self.nodes[b as usize]);
+        let (node_a, node_b) = (&self.paving.nodes[a as usize], &self.paving.nodes[b as usize]);
         let (mark_a, mark_b) = (sight(node_a), sight(node_b));
         if mark_a == Mark::Outside || mark_b == Mark::Outside {
             return;
         }
         let end_a = mark_a == Mark::Inside || node_a.first_child == 0;
         let end_b = mark_b == Mark::Inside || node_b.first_child == 0;
-        if end_a && end_b {
-            return visit(a, b);
-        }
-        let count = 1u32 << self.dimension;
         let (first_a, first_b) = (node_a.first_child, node_b.first_child);
-        if end_a {
-            // Only b goes down: keep its children on the side that faces a.
-            for j in (0..count).filter(|&j| faces(j, offset, 0)) {
-                self.between(a, first_b + j, offset, sight, visit);
+        match (end_a, end_b) {
+            (true, true) => visit(a, b),
+            // Only one goes down: its children on the side that faces the other.
+            (true, false) => {
+                self.steps.behind[offset]
+                    .iter()
+                    .for_each(|j| self.between(a, first_b + j, offset, sight, visit));
             }
-        } else if end_b {
-            for i in (0..count).filter(|&i| faces(i, offset, 1)) {
-                self.between(first_a + i, b, offset, sight, visit);
+            (false, true) => {
+                self.steps.ahead[offset]
+                    .iter()
+                    .for_each(|i| self.between(first_a + i, b, offset, sight, visit));
             }
-        } else {
-            for i in (0..count).filter(|&i| faces(i, offset, 1)) {
-                for j in (0..count).filter(|&j| faces(j, offset, 0)) {
-                    self.between(first_a + i, first_b + j, finer(i, j, offset), sight, visit);
+            (false, false) => {
+                for &(i, j, finer) in &self.steps.both[offset] {
+                    self.between(first_a + i, first_b + j, finer, sight, visit);
                 }
             }
         }
+    }
+}
+
+/// Which children of a pair of nodes still touch, for every offset (by [`number`]).
+struct Steps {
+    /// Pairs of children of one node: (i, j, offset of j with respect to i).
+    siblings: Vec<(u32, u32, usize)>,
+    /// Children of the first node that face the second.
+    ahead: Vec<Vec<u32>>,
+    /// Children of the second node that face the first.
+    behind: Vec<Vec<u32>>,
+    /// Pairs of a child of the first and a child of the second that touch, with their offset.
+    both: Vec<Vec<(u32, u32, usize)>>,
+}
+
+impl Steps {
+    fn new(dimension: usize) -> Self {
+        let children = 0..1u32 << dimension;
+        let facing = |offset: Offset, front: u32| -> Vec<u32> {
+            children.clone().filter(|&child| faces(child, offset, front)).collect()
+        };
+        let mut steps =
+            Self { siblings: Vec::new(), ahead: Vec::new(), behind: Vec::new(), both: Vec::new() };
+        for i in children.clone() {
+            steps.siblings.extend((i + 1..children.end).map(|j| (i, j, number(finer(i, j, [0; 3])))));
+        }
+        for n in 0..27 {
+            let offset = offset(n);
+            let (ahead, behind) = (facing(offset, 1), facing(offset, 0));
+            let pairs =
+                ahead.iter().flat_map(|&i| behind.iter().map(move |&j| (i, j, number(finer(i, j, offset)))));
+            steps.both.push(pairs.collect());
+            steps.ahead.push(ahead);
+            steps.behind.push(behind);
+        }
+        steps
     }
 }
 
@@ -98,13 +137,19 @@ fn finer(i: u32, j: u32, offset: Offset) -> Offset {
     })
 }
 
+/// Offsets numbered 0 to 26 …
+fn number(offset: Offset) -> usize {
+    offset.iter().rev().fold(0, |n, &x| 3 * n + (x + 1) as usize)
+}
+
+/// … and back.
+fn offset(n: usize) -> Offset {
+    [n % 3, n / 3 % 3, n / 9].map(|digit| digit as i8 - 1)
+}
+
+/// All offsets that are zero beyond the dimension.
 fn offsets(dimension: usize) -> impl Iterator<Item = Offset> {
-    let count = 3usize.pow(dimension as u32);
-    (0..count).map(move |n| {
-        let mut offset = [n % 3, n / 3 % 3, n / 9 % 3].map(|digit| digit as i8 - 1);
-        offset[dimension..].fill(0);
-        offset
-    })
+    (0..27).map(offset).filter(move |o| o[dimension..].iter().all(|&x| x == 0))
 }
 
 /// Of an offset and its opposite, one: the first non-zero entry is +1.

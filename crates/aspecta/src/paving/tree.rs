@@ -68,8 +68,8 @@ pub type BoxOf = ([f64; 3], [f64; 3]);
 pub struct Paving {
     /// The box that was paved.
     pub window: Window,
-    /// Number M of coordinates that vary.
-    pub dimension: usize,
+    /// The M coordinates that vary.
+    pub axes: Vec<usize>,
     /// The modes, in the order of the class bits.
     pub modes: Vec<WorkingMode>,
     /// All nodes, level by level, within a level in Morton order. Node 0 is the window.
@@ -96,8 +96,8 @@ impl Paving {
     /// Area or volume of a box of depth `depth`.
     pub fn measure(&self, depth: u32) -> f64 {
         let whole: f64 =
-            self.window.axes().iter().map(|&k| self.window.ranges[k].1 - self.window.ranges[k].0).product();
-        whole / (1u64 << (self.dimension as u32 * depth)) as f64
+            self.axes.iter().map(|&k| self.window.ranges[k].1 - self.window.ranges[k].0).product();
+        whole / (1u64 << (self.axes.len() as u32 * depth)) as f64
     }
 
     /// Lower and upper corner in the pose coordinates that vary (unused entries 0).
@@ -105,7 +105,7 @@ impl Paving {
         let depth = self.depth_of(node);
         let corner = self.nodes[node as usize].corner;
         let (mut lo, mut hi) = ([0.0; 3], [0.0; 3]);
-        for (a, k) in self.window.axes().into_iter().enumerate() {
+        for (a, k) in self.axes.iter().copied().enumerate() {
             lo[a] = self.window.grid_line(k, corner[a], depth);
             hi[a] = self.window.grid_line(k, corner[a] + 1, depth);
         }
@@ -116,7 +116,7 @@ impl Paving {
     pub fn centre(&self, node: u32) -> Vec<f64> {
         let (lo, hi) = self.bounds(node);
         let mut pose: Vec<f64> = self.window.ranges.iter().map(|r| r.0).collect();
-        for (a, k) in self.window.axes().into_iter().enumerate() {
+        for (a, k) in self.axes.iter().copied().enumerate() {
             pose[k] = 0.5 * (lo[a] + hi[a]);
         }
         pose
@@ -126,7 +126,7 @@ impl Paving {
     pub fn children(&self, node: u32) -> std::ops::Range<u32> {
         match self.nodes[node as usize].first_child {
             0 => 0..0,
-            first => first..first + (1 << self.dimension),
+            first => first..first + (1 << self.axes.len()),
         }
     }
 
@@ -149,10 +149,10 @@ impl Paving {
     /// it by more than rounding, so that it surely holds it. `None` outside the window.
     pub fn find(&self, sight: &impl Fn(&Node) -> Mark, pose: &[f64]) -> Option<(u32, bool)> {
         let mut unit = [0.0; 3];
-        for (a, k) in self.window.axes().into_iter().enumerate() {
+        for (a, k) in self.axes.iter().copied().enumerate() {
             unit[a] = self.window.fraction(k, pose[k])?;
         }
-        let unit = &unit[..self.dimension];
+        let unit = &unit[..self.axes.len()];
         let (mut at, mut depth) = (0, 0);
         loop {
             let node = &self.nodes[at as usize];
