@@ -50,29 +50,46 @@ pub(super) fn w_bounds(paving: &Paving, boxes: &[u32]) -> Vec<(f64, f64)> {
     (0..paving.window.ranges.len()).map(bound).collect()
 }
 
-/// Bounds, per joint coordinate, of g_s over the given boxes, all inside mode `mode`.
+/// A box by its grid coordinates and depth.
+type Cell = ([u32; 3], u32);
+
+/// The given boxes, the finest replaced by the boxes two levels up that hold them: a cover of as good as the same
+/// extent with far fewer members.
+fn cover(paving: &Paving, boxes: &[u32]) -> Vec<Cell> {
+    let finest = paving.depth().saturating_sub(2);
+    let coarse = |&node: &u32| {
+        let (corner, depth) = (paving.nodes[node as usize].corner, paving.depth_of(node));
+        let up = depth.saturating_sub(finest);
+        (corner.map(|i| i >> up), depth - up)
+    };
+    let mut cells: Vec<Cell> = boxes.iter().map(coarse).collect();
+    cells.sort_unstable();
+    cells.dedup();
+    cells
+}
+
+/// Bounds, per joint coordinate, that certainly hold g_s over the given boxes, all inside mode `mode`.
 pub(super) fn q_bounds(robot: &Robot, paving: &Paving, mode: WorkingMode, boxes: &[u32]) -> Vec<(f64, f64)> {
-    let mut ranges: Vec<Vec<Interval>> = vec![Vec::with_capacity(boxes.len()); robot.dof()];
-    for &node in boxes {
-        let q = for_platform!(robot.platform, joints_over(robot, paving, mode, node));
-        for (all, q) in ranges.iter_mut().zip(q) {
-            all.push(q);
-        }
+    let cells = cover(paving, boxes);
+    let mut ranges: Vec<Vec<Interval>> = vec![Vec::with_capacity(cells.len()); robot.dof()];
+    for cell in &cells {
+        for_platform!(robot.platform, joints_over(robot, paving, mode, cell, &mut ranges));
     }
     ranges.into_iter().zip(&robot.legs).map(|(r, leg)| hull(r, leg.actuator.is_angle())).collect()
 }
 
-/// Enclosures of the joints over a box.
+/// Appends enclosures of the joints over a box, wherever the legs close in it.
 fn joints_over<const D: usize, const N: usize>(
     robot: &Robot,
     paving: &Paving,
     mode: WorkingMode,
-    node: u32,
-) -> Vec<Interval> {
-    let (lo, hi) = paving.bounds(node);
+    (corner, depth): &Cell,
+    ranges: &mut [Vec<Interval>],
+) {
     let mut x: [Interval; N] = std::array::from_fn(|k| Interval::point(paving.window.ranges[k].0));
-    for (a, k) in paving.axes.iter().copied().enumerate() {
-        x[k] = Interval::new(lo[a], hi[a]);
+    for (a, &k) in paving.axes.iter().enumerate() {
+        let line = |i| paving.window.grid_line(k, i, *depth);
+        x[k] = Interval::new(line(corner[a]), line(corner[a] + 1));
     }
     let legs = closures::<Interval, D, N>(robot, &Placement::at(robot.platform, &x));
     let joint = |j: usize| {
@@ -85,7 +102,9 @@ fn joints_over<const D: usize, const N: usize>(
             Drive::Length(q) => q,
         }
     };
-    (0..N).map(joint).collect()
+    for (j, all) in ranges.iter_mut().enumerate() {
+        all.push(joint(j));
+    }
 }
 
 #[cfg(test)]

@@ -191,7 +191,8 @@ pub struct Aspect {
     /// Bounds of the W-aspect WA_ij: the box that certainly holds it, per pose coordinate (a glued
     /// coordinate may run over ±π).
     pub w_bounds: Vec<(f64, f64)>,
-    /// Bounds of the Q-aspect QA_ij over the inner cells, per joint coordinate; (−π, π) for a full turn.
+    /// Bounds that certainly hold the image of the inner cells in the Q-aspect QA_ij, per joint coordinate; (−π, π)
+    /// for a full turn.
     pub q_bounds: Vec<(f64, f64)>,
 }
 
