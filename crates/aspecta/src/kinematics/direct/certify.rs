@@ -5,26 +5,14 @@ use crate::num::{Interval, Jet};
 use crate::robot::Platform;
 use nalgebra::SMatrix;
 
-/// What interval arithmetic knows of the solutions in a box.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Verdict<const N: usize> {
-    /// Exactly one solution in the box, and it lies in this smaller one.
-    One([Interval; N]),
-    /// No solution.
-    None,
-    /// Cannot tell.
-    Unknown,
-}
-
 /// f(·, q) linearised at a point m, for the Krawczyk operator on boxes X round m,
 ///
 /// > K(X) = m − Y f(m) + (I − Y F(X)) (X − m),
 ///
 /// with Y ≈ f′(m)⁻¹ and F(X) an enclosure of f′ over X.
 ///
-/// *Theorem* (Krawczyk 1969; Neumaier, *Interval Methods for Systems of Equations*, 1990, theorem 5.1.8). Every
-/// zero of f in X lies in K(X); so if K(X) ∩ X is empty, X holds none. If K(X) lies in the interior of X, then
-/// f has exactly one zero in X, and f′ is regular there.
+/// *Theorem* (Krawczyk 1969; Neumaier, *Interval Methods for Systems of Equations*, 1990, theorem 5.1.8). If K(X)
+/// lies in the interior of X, then f has exactly one zero in X, and f′ is regular there.
 ///
 /// Robot constants and q are intervals here, so this holds for every robot and every q inside them.
 struct Krawczyk<'a, const D: usize, const N: usize> {
@@ -64,32 +52,10 @@ impl<'a, const D: usize, const N: usize> Krawczyk<'a, D, N> {
             image
         })
     }
-
-    fn judge(&self, region: &[Interval; N]) -> Verdict<N> {
-        let image = self.image(region);
-        let apart = |i: usize| image[i].hi < region[i].lo || region[i].hi < image[i].lo;
-        if (0..N).any(apart) {
-            Verdict::None
-        } else if inside(&image, region) {
-            Verdict::One(image)
-        } else {
-            Verdict::Unknown
-        }
-    }
 }
 
 fn inside<const N: usize>(inner: &[Interval; N], outer: &[Interval; N]) -> bool {
     (0..N).all(|k| outer[k].lo < inner[k].lo && inner[k].hi < outer[k].hi)
-}
-
-/// The solutions in `region`, a box in pose coordinates.
-pub(super) fn judge<const D: usize, const N: usize>(
-    platform: Platform,
-    legs: &[Locked],
-    region: &[Interval; N],
-) -> Verdict<N> {
-    Krawczyk::<D, N>::at(platform, legs, region.map(Interval::mid))
-        .map_or(Verdict::Unknown, |k| k.judge(region))
 }
 
 /// A box round the approximate solution `pose` proved to hold exactly one solution, or `None`.

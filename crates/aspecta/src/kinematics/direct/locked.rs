@@ -25,16 +25,10 @@ pub(super) struct Locked {
 pub(super) type LockedLegs = ArrayVec<Locked, 6>;
 
 impl Locked {
-    /// Locks a point-to-point leg at the joint coordinate `q`, taken with a slack of two to four units in
-    /// the last place of what q was computed from: a configuration whose q was rounded must not be lost.
-    /// Spherical legs have no such form; they stay as they are.
+    /// Locks a point-to-point leg at the joint coordinate `q`, within the [`slack`] of q: a configuration whose
+    /// q was rounded must not be lost. Spherical legs have no such form; they stay as they are.
     pub fn new<const D: usize>(leg: &Leg, q: f64) -> Self {
-        let computed_from = match &leg.actuator {
-            Actuator::Revolute { .. } | Actuator::Spherical { .. } => 1.0,
-            Actuator::Prismatic { rod } => rod.mid(),
-            Actuator::Strut => 0.0,
-        };
-        let slack = 2.0 * f64::EPSILON * q.abs().max(computed_from);
+        let slack = slack(leg, q);
         let q = Interval::new(q - slack, q + slack);
         let (local, length) = match &leg.actuator {
             Actuator::Revolute { crank, rod } => {
@@ -66,6 +60,20 @@ impl Locked {
     }
 }
 
+/// What rounding leaves open of a `q` that the inverse model made of a pose: a few units in the last place of the
+/// coordinates that went into it, seen as an angle of the crank where q is one.
+fn slack(leg: &Leg, q: f64) -> f64 {
+    let largest = |v: &[Interval; 3]| v.iter().map(|x| x.magnitude()).fold(0.0, f64::max);
+    let ends = largest(&leg.anchor) + largest(&leg.attachment);
+    let relative = match &leg.actuator {
+        Actuator::Revolute { crank, rod } => (q.abs() + 1.0).max((ends + crank.hi + rod.hi) / crank.lo),
+        Actuator::Prismatic { rod } => ends + rod.hi + q.abs(),
+        Actuator::Strut => ends + q.abs(),
+        Actuator::Spherical { .. } => q.abs() + 1.0,
+    };
+    2.0 * f64::EPSILON * relative
+}
+
 /// f(X), one leg equation a locked leg, for any scalar: values, enclosures, or either with gradients.
 #[inline]
 pub(super) fn equations<T: Scalar, const D: usize, const N: usize>(
@@ -92,15 +100,19 @@ pub(super) fn linearised<const D: usize, const N: usize>(
     (SVector::from_fn(|j, _| f[j].value), SMatrix::from_fn(|j, k| f[j].gradient[k]))
 }
 
+/// What makes a pose coordinate a number of order one: the longest leg, or a radian.
+pub(super) fn units<const N: usize>(platform: Platform, legs: &[Locked]) -> [f64; N] {
+    let longest = legs.iter().map(|l| l.q.hi).fold(0.0, f64::max);
+    std::array::from_fn(|k| if platform.coordinates()[k].angle { 1.0 } else { longest })
+}
+
 /// Newton's method from `x`: the best iterate, the one with the least residual.
 ///
-/// Steps are cut to `reach` (relative to the longest leg for lengths, in rad for angles). It stops after the
-/// first step so small that the next, quadratically smaller, is lost in rounding.
+/// It stops after the first step so small that the next, quadratically smaller, is lost in rounding.
 pub(super) fn polish<const D: usize, const N: usize>(
     platform: Platform,
     legs: &[Locked],
     x: [f64; N],
-    reach: f64,
 ) -> [f64; N] {
     const MOST_STEPS: usize = 12;
     const SMALL_STEP: f64 = 1e-10;
@@ -116,13 +128,9 @@ pub(super) fn polish<const D: usize, const N: usize>(
         }
         (best, least) = (here, residual);
         let Some(inverse) = jacobian.try_inverse() else { break };
-        let mut step = inverse * f;
-        let size = (0..N).map(|k| (step[k] / unit[k]).abs()).fold(0.0, f64::max);
-        if size > reach {
-            step *= reach / size;
-        }
+        let step = inverse * f;
         here = std::array::from_fn(|k| here[k] - step[k]);
-        if size < SMALL_STEP {
+        if (0..N).all(|k| step[k].abs() < SMALL_STEP * unit[k]) {
             return here;
         }
     }

@@ -1,9 +1,10 @@
 //! Platforms that do not turn: both direct solutions are mirror images in the line (the plane) of the centres.
 
-use super::locked::{Locked, polish, rounds_to_zero};
+use super::locked::{Locked, polish};
 use super::{Roots, SelfMotion};
 use crate::num::Interval;
 use crate::robot::Platform;
+use nalgebra::SVector;
 
 /// The points foot ± √square · normal.
 #[derive(Clone, Copy, Debug)]
@@ -47,17 +48,29 @@ pub(super) fn solve<const D: usize>(
     };
     let mut roots = Roots::none();
     roots.at_most = Some(2);
-    let decided = pair.square.is_positive();
-    // Newton's method closes in on two poses that meet from outside, one from either side.
-    let height = if decided { pair.square.mid() } else { pair.square.hi }.max(0.0).sqrt();
-    for side in [height, -height] {
-        let start = std::array::from_fn(|k| pair.foot[k].mid() + side * pair.normal[k].mid());
-        let pose = polish::<D, D>(platform, legs, start, f64::INFINITY);
-        if decided {
+    for side in [1.0, -1.0] {
+        let pose = polish::<D, D>(platform, legs, point(&pair, &centres[0], radii[0], side));
+        if pair.square.is_positive() {
             roots.push(pose)?;
-        } else if rounds_to_zero::<D, D>(platform, legs, &pose) {
-            roots.push_new(platform, legs, pose)?;
+        } else {
+            roots.push_if_solution::<D>(platform, legs, pose)?;
         }
     }
     Ok(roots)
+}
+
+/// foot ± h · normal on the first circle or sphere. The foot carries a rounding error, which is large where the
+/// centres almost coincide; h is what fits the foot as it is, and the point nearest to the foot where none fits.
+fn point<const D: usize>(
+    pair: &MirrorPair<D>,
+    centre: &[Interval; D],
+    radius: Interval,
+    side: f64,
+) -> [f64; D] {
+    let vector = |of: &[Interval; D]| SVector::<f64, D>::from_fn(|k, _| of[k].mid());
+    let (centre, normal, radius) = (vector(centre), vector(&pair.normal), radius.mid());
+    let arm = vector(&pair.foot) - centre;
+    let height = (radius * radius - arm.norm_squared()).max(0.0).sqrt();
+    let arm = arm + normal.normalize() * (side * height);
+    (centre + arm * (radius / arm.norm())).into()
 }

@@ -55,18 +55,26 @@ impl<const N: usize> Roots<N> {
         self.poses.try_push(pose).map_err(|_| SelfMotion)
     }
 
-    /// Adds a doubtful pose unless it is one already there: nearer than two poses that meet can be told apart,
-    /// √ε of the longest leg or of a radian.
-    fn push_new(&mut self, platform: Platform, legs: &[Locked], pose: [f64; N]) -> Result<(), SelfMotion> {
+    /// Adds a doubtful pose if its leg equations hold to rounding and it is not there already: nearer to another
+    /// than poses that meet can be told apart, √ε of the longest leg or of a radian.
+    fn push_if_solution<const D: usize>(
+        &mut self,
+        platform: Platform,
+        legs: &[Locked],
+        pose: [f64; N],
+    ) -> Result<(), SelfMotion> {
         const MEET: f64 = 1.5e-8;
-        let longest = legs.iter().map(|l| l.q.hi).fold(0.0, f64::max);
+        let unit = locked::units::<N>(platform, legs);
         let near = |other: &[f64; N]| {
             platform.coordinates().iter().enumerate().all(|(k, c)| {
                 let gap = pose[k] - other[k];
-                if c.angle { principal(gap).abs() <= MEET } else { gap.abs() <= MEET * longest }
+                (if c.angle { principal(gap) } else { gap }).abs() <= MEET * unit[k]
             })
         };
-        if self.poses.iter().any(near) { Ok(()) } else { self.push(pose) }
+        if !locked::rounds_to_zero::<D, N>(platform, legs, &pose) || self.poses.iter().any(near) {
+            return Ok(());
+        }
+        self.push(pose)
     }
 }
 

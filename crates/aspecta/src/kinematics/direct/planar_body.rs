@@ -30,6 +30,10 @@ pub(super) fn norm2<T: Scalar>(a: Complex<T>) -> T {
     a[0].square() + a[1].square()
 }
 
+pub(super) fn dot<T: Scalar>(a: Complex<T>, b: Complex<T>) -> T {
+    a[0] * b[0] + a[1] * b[1]
+}
+
 pub(super) fn scaled<T: Scalar>(a: Complex<T>, c: T) -> Complex<T> {
     [a[0] * c, a[1] * c]
 }
@@ -76,16 +80,16 @@ impl Triangle<Interval> {
         Self { base: base(0), attachment: attachment(0), e, d, k, r2: r2(0) }
     }
 
-    /// The middle of it.
-    fn numeric(&self) -> Triangle<f64> {
-        let mid = |a: Complex<Interval>| a.map(Interval::mid);
+    /// The same over another scalar; `f64` takes the middle.
+    pub fn over<T: Scalar>(&self) -> Triangle<T> {
+        let vector = |a: Complex<Interval>| a.map(T::constant);
         Triangle {
-            base: mid(self.base),
-            attachment: mid(self.attachment),
-            e: self.e.map(mid),
-            d: self.d.map(mid),
-            k: self.k.map(Interval::mid),
-            r2: self.r2.mid(),
+            base: vector(self.base),
+            attachment: vector(self.attachment),
+            e: self.e.map(vector),
+            d: self.d.map(vector),
+            k: self.k.map(T::constant),
+            r2: T::constant(self.r2),
         }
     }
 }
@@ -101,6 +105,14 @@ impl<T: Scalar> Triangle<T> {
     /// (x, y) from z and u.
     pub fn position(&self, z: Complex<T>, u: Complex<T>) -> Complex<T> {
         minus(plus(self.base, u), times(self.attachment, z))
+    }
+
+    /// The point of the line u · w = g on the circle ‖u‖² = R₁², on the left of w (`side` = 1) or on the right
+    /// (−1); the nearest point of the line if it misses the circle.
+    pub fn on_circle(&self, w: Complex<T>, g: T, side: f64) -> Complex<T> {
+        let along = g / norm2(w);
+        let across = (self.r2 / norm2(w) - along.square()).sqrt() * number(side);
+        times(w, [along, across])
     }
 
     /// F(φ) = ‖G‖² − R₁² Δ² with G = g₂ w₃ − g₃ w₂ and Δ = w₂ × w₃, a trigonometric polynomial of degree 3.
@@ -240,23 +252,26 @@ fn charts(eliminant: &TrigonometricCubic<Interval>) -> Option<[Chart; 2]> {
 /// All poses of a plane body whose `legs` are locked.
 pub(super) fn solve(legs: &[Locked]) -> Result<Roots<3>, SelfMotion> {
     let triangle = Triangle::new(legs);
-    let numeric = triangle.numeric();
+    let numeric = triangle.over();
     let mut roots = Roots::none();
     let Some(charts) = charts(&triangle.eliminant()) else {
         let circle = Interval::new(-Interval::PI.hi, Interval::PI.hi);
-        cluster::resolve(legs, &triangle, &numeric, circle, &mut roots)?;
+        cluster::resolve(legs, &triangle, circle, &mut roots)?;
         return Ok(roots);
     };
     for chart in &charts {
         for piece in &isolate(chart.eliminant) {
             match piece {
                 Piece::Root(arc) => {
-                    roots.push(pose(legs, &numeric, chart, arc))?;
-                    roots.at_most = roots.at_most.map(|n| n + 1);
+                    if let Some(pose) = pose(legs, &numeric, chart, arc) {
+                        roots.push(pose)?;
+                        roots.at_most = roots.at_most.map(|n| n + 1);
+                    } else {
+                        cluster::resolve(legs, &triangle, chart.orientations(arc.lo, arc.hi), &mut roots)?;
+                    }
                 }
                 Piece::Cluster(lo, hi) => {
-                    let phi = chart.orientations(*lo, *hi);
-                    cluster::resolve(legs, &triangle, &numeric, phi, &mut roots)?;
+                    cluster::resolve(legs, &triangle, chart.orientations(*lo, *hi), &mut roots)?;
                 }
             }
         }
@@ -264,24 +279,18 @@ pub(super) fn solve(legs: &[Locked]) -> Result<Roots<3>, SelfMotion> {
     Ok(roots)
 }
 
-/// The one pose with an orientation on `arc`: from the root of F, polished on the leg equations. Newton's
-/// method must not leave the arc, or it has found another pose.
-fn pose(legs: &[Locked], triangle: &Triangle<f64>, chart: &Chart, arc: &Arc<7>) -> [f64; 3] {
+/// The one pose with an orientation on `arc`: from the root of F, polished on the leg equations. `None` if Newton's
+/// method leaves the arc, for then it has found another pose.
+fn pose(legs: &[Locked], triangle: &Triangle<f64>, chart: &Chart, arc: &Arc<7>) -> Option<[f64; 3]> {
     let (from, to) = (chart.direction(arc.lo), chart.direction(arc.hi));
-    let mut start = [0.0; 3];
-    for tolerance in [1e-4, 1e-15] {
+    let follows = |a, b| conjugate_times(a, b)[1] >= -1e-14;
+    [1e-4, 1e-15].into_iter().find_map(|tolerance| {
         let z = chart.direction(arc.root(tolerance));
-        let u = triangle.reach(z);
-        let [x, y] = triangle.position(z, u);
-        start = [x, y, z[1].atan2(z[0])];
-        let polished = polish::<2, 3>(Platform::PlaneBody, legs, start, f64::INFINITY);
-        let (sin, cos) = polished[2].sin_cos();
-        let past = |a, b| conjugate_times(a, b)[1] >= -1e-12;
-        if past(from, [cos, sin]) && past([cos, sin], to) {
-            return polished;
-        }
-    }
-    start
+        let [x, y] = triangle.position(z, triangle.reach(z));
+        let pose = polish::<2, 3>(Platform::PlaneBody, legs, [x, y, z[1].atan2(z[0])]);
+        let (sin, cos) = pose[2].sin_cos();
+        (follows(from, [cos, sin]) && follows([cos, sin], to)).then_some(pose)
+    })
 }
 
 impl Triangle<f64> {
@@ -297,13 +306,5 @@ impl Triangle<f64> {
         let best = if norm2(w[0]) > norm2(w[1]) { 0 } else { 1 };
         let side = -conjugate_times(w[best], big)[0] * area;
         self.on_circle(w[best], g[best], side.signum())
-    }
-
-    /// The point of the line u · w = g on the circle ‖u‖² = R₁², on the left of w (`side` = 1) or the right
-    /// (−1); the nearest point of the line if it misses the circle.
-    pub fn on_circle(&self, w: Complex<f64>, g: f64, side: f64) -> Complex<f64> {
-        let along = g / norm2(w);
-        let across = side * (self.r2 / norm2(w) - along * along).max(0.0).sqrt();
-        times(w, [along, across])
     }
 }
