@@ -94,12 +94,15 @@ pub(super) fn resolve(
     problem.approximate(&cuts, roots)
 }
 
-/// The line on which to look for u, the one with the longest chord in the circle, and another; the chord's
-/// square is R₁² − g²/‖w‖².
-fn choose<T: Scalar>(triangle: &Triangle<T>, lines: &Lines<T>, least: impl Fn(T) -> f64) -> (usize, usize) {
-    let chord2 = |i: usize| least(triangle.r2 - lines.g[i].square() / norm2(lines.w[i]));
+/// R₁² ‖w‖² − g², positive where the line u · w = g cuts the circle: ‖w‖² times the square of half the chord.
+fn discriminants<T: Scalar>(triangle: &Triangle<T>, Lines { w, g }: &Lines<T>) -> [T; 3] {
+    std::array::from_fn(|i| triangle.r2 * norm2(w[i]) - g[i].square())
+}
+
+/// The line on which to look for u, which ties it down best, and the next best.
+fn choose(discriminants: [f64; 3]) -> (usize, usize) {
     let mut order = [0, 1, 2];
-    order.sort_unstable_by(|&a, &b| chord2(b).total_cmp(&chord2(a)));
+    order.sort_unstable_by(|&a, &b| discriminants[b].total_cmp(&discriminants[a]));
     (order[0], order[1])
 }
 
@@ -116,15 +119,14 @@ impl Problem<'_> {
         let mut poses = ArrayVec::new();
         let (sin, cos) = phi.sin_cos();
         let lines = self.exact.lines([cos, sin]);
-        let Lines { w, g } = lines;
-        let misses = |i: usize| (self.exact.r2 * norm2(w[i]) - g[i].square()).is_negative();
-        if (0..3).any(misses) {
+        let cuts = discriminants(&self.exact, &lines);
+        if cuts.iter().any(|d| d.is_negative()) {
             return Known::Poses(poses);
         }
-        let (at, other) = choose(&self.exact, &lines, |chord2| chord2.lo);
-        if !(self.exact.r2 - g[at].square() / norm2(w[at])).is_positive() {
-            let free = (0..3).all(|i| norm2(w[i]).contains(0.0) && g[i].contains(0.0));
-            return Known::Open { free };
+        let (at, other) = choose(cuts.map(|d| d.lo));
+        if !cuts[at].is_positive() {
+            let vanishes = |i: usize| norm2(lines.w[i]).contains(0.0) && lines.g[i].contains(0.0);
+            return Known::Open { free: (0..3).all(vanishes) };
         }
         for side in [1.0, -1.0] {
             let value = |phi: f64| mismatch(&self.exact, Interval::point(phi), at, other, side);
@@ -153,7 +155,7 @@ impl Problem<'_> {
     fn approximate(&self, cuts: &[f64], roots: &mut Roots<3>) -> Result<(), SelfMotion> {
         roots.at_most = None;
         let (sin, cos) = cuts[cuts.len() / 2].sin_cos();
-        let (at, other) = choose(&self.numeric, &self.numeric.lines([cos, sin]), |chord2| chord2);
+        let (at, other) = choose(discriminants(&self.numeric, &self.numeric.lines([cos, sin])));
         let turning: Triangle<Jet<f64, 1>> = self.exact.over();
         for side in [1.0, -1.0] {
             let positive = |phi: f64| mismatch(&self.numeric, phi, at, other, side) > 0.0;

@@ -63,7 +63,6 @@ impl Locked {
 /// What rounding leaves open of a `q` that the inverse model made of a pose: a few units in the last place of the
 /// coordinates that went into it, seen as an angle of the crank where q is one.
 fn slack(leg: &Leg, q: f64) -> f64 {
-    let largest = |v: &[Interval; 3]| v.iter().map(|x| x.magnitude()).fold(0.0, f64::max);
     let ends = largest(&leg.anchor) + largest(&leg.attachment);
     let relative = match &leg.actuator {
         Actuator::Revolute { crank, rod } => (q.abs() + 1.0).max((ends + crank.hi + rod.hi) / crank.lo),
@@ -137,14 +136,19 @@ pub(super) fn polish<const D: usize, const N: usize>(
     best
 }
 
-/// Whether the leg equations hold at `x` as far as double precision can tell: to a small multiple of the width
-/// that the rounding of q, of the robot's constants and of the arithmetic gives the residual's enclosure.
+/// Whether the leg equations hold at `x` as far as rounding lets them: |f| is within a few dozen units in the last
+/// place of the square of the coordinates that enter it.
 pub(super) fn rounds_to_zero<const D: usize, const N: usize>(
     platform: Platform,
     legs: &[Locked],
     x: &[f64; N],
 ) -> bool {
-    const WIDTHS: f64 = 16.0;
-    let f = equations::<Interval, D, N>(platform, legs, &x.map(Interval::point));
-    f.iter().all(|f| f.mid().abs() <= WIDTHS * f.width())
+    const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
+    let f = equations::<f64, D, N>(platform, legs, x);
+    let size = |l: &Locked| l.q.hi + largest(&l.leg.anchor) + largest(&l.leg.attachment);
+    f.iter().zip(legs).all(|(f, leg)| f.abs() <= ROUNDINGS * size(leg).powi(2))
+}
+
+fn largest(v: &[Interval; 3]) -> f64 {
+    v.iter().map(|x| x.magnitude()).fold(0.0, f64::max)
 }
