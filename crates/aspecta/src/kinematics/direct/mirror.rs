@@ -1,6 +1,6 @@
 //! Platforms that do not turn: both direct solutions are mirror images in the line (the plane) of the centres.
 
-use super::locked::{Locked, polish};
+use super::locked::{Locked, linearised, polish};
 use super::{Roots, SelfMotion};
 use crate::num::Interval;
 use crate::robot::Platform;
@@ -46,31 +46,39 @@ pub(super) fn solve<const D: usize>(
         Pair::SelfMotion => return Err(SelfMotion),
         Pair::Mirrored(pair) => pair,
     };
+    let vector = |of: &[Interval; D]| SVector::<f64, D>::from_fn(|k, _| of[k].mid());
+    let (foot, normal) = (vector(&pair.foot), vector(&pair.normal));
+    let height = pair.square.mid().max(0.0).sqrt();
     let mut roots = Roots::none();
     roots.at_most = Some(2);
-    for side in [1.0, -1.0] {
-        let pose = polish::<D, D>(platform, legs, point(&pair, &centres[0], radii[0], side));
+    for side in [height, -height] {
+        let start = foot + normal * side;
         if pair.square.is_positive() {
-            roots.push(pose)?;
+            roots.push(polish::<D, D>(platform, legs, start.into()))?;
         } else {
-            roots.push_if_solution::<D>(platform, legs, pose)?;
+            let start = settled(platform, legs, start, normal.normalize());
+            roots.push_if_solution::<D>(platform, legs, polish::<D, D>(platform, legs, start.into()))?;
         }
     }
     Ok(roots)
 }
 
-/// foot ± h · normal on the first circle or sphere. The foot carries a rounding error, which is large where the
-/// centres almost coincide; h is what fits the foot as it is, and the point nearest to the foot where none fits.
-fn point<const D: usize>(
-    pair: &MirrorPair<D>,
-    centre: &[Interval; D],
-    radius: Interval,
-    side: f64,
-) -> [f64; D] {
-    let vector = |of: &[Interval; D]| SVector::<f64, D>::from_fn(|k, _| of[k].mid());
-    let (centre, normal, radius) = (vector(centre), vector(&pair.normal), radius.mid());
-    let arm = vector(&pair.foot) - centre;
-    let height = (radius * radius - arm.norm_squared()).max(0.0).sqrt();
-    let arm = arm + normal.normalize() * (side * height);
-    (centre + arm * (radius / arm.norm())).into()
+/// The point at the same height over the line (the plane) of the centres that fulfils the leg equations best: least
+/// squares by Gauss and Newton. Where the centres are almost in line, the formula of the foot is not good enough.
+fn settled<const D: usize>(
+    platform: Platform,
+    legs: &[Locked],
+    mut x: SVector<f64, D>,
+    normal: SVector<f64, D>,
+) -> SVector<f64, D> {
+    for _ in 0..3 {
+        let (f, jacobian) = linearised::<D, D>(platform, legs, &x.into());
+        let level = jacobian - jacobian * normal * normal.transpose();
+        let squares = level.transpose() * level;
+        let Some(inverse) = (squares + normal * normal.transpose() * squares.trace()).try_inverse() else {
+            break;
+        };
+        x -= inverse * (level.transpose() * f);
+    }
+    x
 }
