@@ -6,8 +6,10 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 
 fn five_bar() -> Robot {
-    let legs =
-        vec![Leg::revolute([0.0, 0.0], [0.0, 0.0], 8.0, 5.0), Leg::revolute([9.0, 0.0], [0.0, 0.0], 5.0, 8.0)];
+    let legs = vec![
+        Leg::revolute([0.0, 0.0], [0.0, 0.0], 8.0, 5.0),
+        Leg::revolute([9.0, 0.0], [0.0, 0.0], 5.0, 8.0),
+    ];
     Robot::new("five-bar", Platform::PlanePoint, legs).unwrap()
 }
 
@@ -63,7 +65,9 @@ fn kinematics(c: &mut Criterion) {
         c.bench_function(&format!("{name}/leg solutions"), |b| {
             b.iter(|| robot.leg_solutions(black_box(pose)))
         });
-        c.bench_function(&format!("{name}/inverse, all modes"), |b| b.iter(|| robot.inverse(black_box(pose))));
+        c.bench_function(&format!("{name}/inverse, all modes"), |b| {
+            b.iter(|| robot.inverse(black_box(pose)))
+        });
         c.bench_function(&format!("{name}/direct, plain"), |b| b.iter(|| robot.direct_poses(black_box(q))));
         c.bench_function(&format!("{name}/direct, certified"), |b| {
             b.iter(|| robot.direct_certified(black_box(q)))

@@ -9,8 +9,8 @@
 //! a function of φ alone, for another line (w′, g′). Its roots are the poses on that side, and they are simple
 //! wherever the pose is regular.
 
-use super::locked::{Locked, polish};
-use super::planar_body::{Lines, Triangle, dot, norm2};
+use super::locked::Locked;
+use super::triangle::{Complex, Lines, Triangle, conjugate_times, dot, norm2};
 use super::{Roots, SelfMotion};
 use crate::num::{Interval, Jet, Scalar};
 use crate::robot::Platform;
@@ -96,7 +96,7 @@ pub(super) fn resolve(
 
 /// R₁² ‖w‖² − g², positive where the line u · w = g cuts the circle: ‖w‖² times the square of half the chord.
 fn discriminants<T: Scalar>(triangle: &Triangle<T>, Lines { w, g }: &Lines<T>) -> [T; 3] {
-    std::array::from_fn(|i| triangle.r2 * norm2(w[i]) - g[i].square())
+    std::array::from_fn(|i| triangle.r2[0] * norm2(w[i]) - g[i].square())
 }
 
 /// The line on which to look for u, which ties it down best, and the next best.
@@ -166,7 +166,8 @@ impl Problem<'_> {
                 let turn = bisect(pair[0], pair[1], |phi| rises(phi) == rises(pair[0]));
                 points.push(turn);
                 if positive(pair[0]) == positive(turn) && positive(turn) == positive(pair[1]) {
-                    let pose = self.start(turn, at, side);
+                    let (u, z) = self.start(turn, at, side);
+                    let pose = self.numeric.pose(z, u);
                     roots.push_if_solution::<2>(Platform::PlaneBody, self.legs, pose)?;
                 }
             }
@@ -183,17 +184,20 @@ impl Problem<'_> {
     fn pose(&self, range: Interval, at: usize, other: usize, side: f64) -> [f64; 3] {
         let positive = |phi: f64| mismatch(&self.numeric, phi, at, other, side) > 0.0;
         let root = bisect(range.lo, range.hi, |phi| positive(phi) == positive(range.lo));
-        let start = self.start(root, at, side);
-        let polished = polish::<2, 3>(Platform::PlaneBody, self.legs, start);
-        if range.contains(polished[2]) { polished } else { start }
+        let (u, z) = self.start(root, at, side);
+        let (better_u, better_z) = self.numeric.polish(u, z);
+        // Within the range, seen from its middle: its angles go beyond π.
+        let (sin, cos) = range.mid().sin_cos();
+        let [along, across] = conjugate_times([cos, sin], better_z);
+        let stays = across.atan2(along).abs() <= 0.5 * (range.hi - range.lo);
+        if stays { self.numeric.pose(better_z, better_u) } else { self.numeric.pose(z, u) }
     }
 
-    /// The pose on one side of the line `at`, whether or not it is on the other line.
-    fn start(&self, phi: f64, at: usize, side: f64) -> [f64; 3] {
+    /// (u, z) on one side of the line `at`, whether or not it is on the other line.
+    fn start(&self, phi: f64, at: usize, side: f64) -> (Complex<f64>, Complex<f64>) {
         let (sin, cos) = phi.sin_cos();
         let Lines { w, g } = self.numeric.lines([cos, sin]);
-        let [x, y] = self.numeric.position([cos, sin], self.numeric.on_circle(w[at], g[at], side));
-        [x, y, phi]
+        (self.numeric.on_circle(w[at], g[at], side), [cos, sin])
     }
 }
 

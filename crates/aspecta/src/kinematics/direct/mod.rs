@@ -12,14 +12,17 @@
 //! Nothing is lost near double solutions: intervals decide how many poses there are, and where they cannot, every
 //! pose is returned whose leg equations hold to rounding.
 
+mod ball;
 mod bernstein;
 mod certify;
 mod circles;
 mod cluster;
+mod eliminant;
 mod locked;
 mod mirror;
 mod planar_body;
 mod spheres;
+mod triangle;
 
 use super::leg::eliminate;
 use super::limits::{LegAt, margin};
