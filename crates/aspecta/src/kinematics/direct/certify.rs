@@ -92,3 +92,40 @@ pub(super) fn disjoint<const N: usize>(platform: Platform, a: &[Interval; N], b:
         apart(gap) && (!platform.coordinates()[k].periodic || (apart(gap - turn) && apart(gap + turn)))
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::robot::Leg;
+
+    /// Two circles of one radius round (±3, 0).
+    fn circles(radius: f64) -> [Locked; 2] {
+        [-3.0, 3.0].map(|x| Locked::new::<2>(&Leg::strut([x, 0.0], [0.0, 0.0]), radius))
+    }
+
+    #[test]
+    fn a_certificate_is_a_narrow_box_round_the_solution() {
+        let legs = circles(5.0);
+        let certify = |pose| certify::<2, 2>(Platform::PlanePoint, &legs, pose);
+        let up = certify([1e-9, 4.0]).unwrap();
+        assert!(up[0].contains(0.0) && up[1].contains(4.0) && up[1].width() < 1e-7);
+        let down = certify([0.0, -4.0]).unwrap();
+        assert!(disjoint(Platform::PlanePoint, &up, &down) && !disjoint(Platform::PlanePoint, &up, &up));
+    }
+
+    #[test]
+    fn none_without_a_solution_or_at_a_double_one() {
+        for (radius, pose) in [(5.0, [0.0, 0.0]), (3.0, [0.0, 0.0]), (3.0, [0.0, 1e-8]), (2.9, [0.0, 0.1])] {
+            assert_eq!(certify::<2, 2>(Platform::PlanePoint, &circles(radius), pose), None);
+        }
+    }
+
+    #[test]
+    fn angles_are_compared_modulo_a_turn() {
+        let at =
+            |phi: f64| [Interval::point(1.0), Interval::point(2.0), Interval::new(phi - 1e-9, phi + 1e-9)];
+        let pi = std::f64::consts::PI;
+        assert!(!disjoint(Platform::PlaneBody, &at(pi), &at(-pi)));
+        assert!(disjoint(Platform::PlaneBody, &at(pi), &at(-pi + 1e-6)));
+    }
+}

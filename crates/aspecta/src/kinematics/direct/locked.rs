@@ -115,8 +115,7 @@ pub(super) fn polish<const D: usize, const N: usize>(
 ) -> [f64; N] {
     const MOST_STEPS: usize = 12;
     const SMALL_STEP: f64 = 1e-10;
-    let longest = legs.iter().map(|l| l.q.hi).fold(0.0, f64::max);
-    let unit: [f64; N] = std::array::from_fn(|k| if platform.coordinates()[k].angle { 1.0 } else { longest });
+    let unit = units::<N>(platform, legs);
     let (mut best, mut least) = (x, f64::INFINITY);
     let mut here = x;
     for _ in 0..MOST_STEPS {

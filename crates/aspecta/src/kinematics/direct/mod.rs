@@ -32,6 +32,7 @@ use crate::num::Interval;
 use crate::robot::{Actuator, Platform, Robot};
 use arrayvec::ArrayVec;
 use locked::{Locked, LockedLegs};
+use serde::Serialize;
 use std::cmp::Ordering;
 
 /// More than any platform has here, to leave room for doubtful near-double poses.
@@ -123,7 +124,7 @@ impl Poses {
 }
 
 /// All direct solutions, and whether they are proved to be all.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DirectSolutions {
     /// The solutions, sorted by angles, then by lengths.
     pub solutions: Vec<Solution>,
