@@ -486,3 +486,36 @@ fn plain_and_certified_poses_are_the_same() {
         }
     }
 }
+
+/// Robots on a small integer grid are degenerate in every way: coincident and aligned points, parallel struts, poses
+/// that meet, translations and turns with locked struts.
+#[test]
+fn robots_on_a_grid() {
+    let (mut complete, mut open, mut moving) = (0, 0, 0);
+    for seed in 0..cases() {
+        let random = &mut random::Random(seed + 77);
+        let mut grid = || random.within(-2.0, 3.0).floor();
+        let points: [[f64; 2]; 6] = std::array::from_fn(|_| [grid(), grid()]);
+        let turns = [0.0, PI / 2.0, PI, -PI / 2.0, 0.8f64.atan2(0.6)];
+        let pose = [grid(), grid(), turns[(grid() + 2.0) as usize]];
+        let [a1, a2, a3, c1, c2, c3] = points;
+        let legs = vec![Leg::strut(a1, c1), Leg::strut(a2, c2), Leg::strut(a3, c3)];
+        let robot = Robot::new("grid", Platform::PlaneBody, legs).unwrap();
+        let q = robot.inverse(&pose).unwrap().remove(0).q;
+        // A strut of length zero, to rounding, has no direction and no relative residual.
+        if q.iter().any(|&q| q < 1e-9) {
+            continue;
+        }
+        match robot.direct_certified(&q) {
+            Ok(found) => {
+                let case = Case { robot, pose: pose.to_vec(), q: q.clone() };
+                assert_contains(&found, &case, &q, &format!("{seed}"));
+                assert_sound(&found, &case, &format!("{seed}"));
+                *(if found.complete { &mut complete } else { &mut open }) += 1;
+            }
+            Err(KinematicsError::SelfMotion { .. }) => moving += 1,
+            Err(error) => panic!("{seed}: {error}"),
+        }
+    }
+    println!("{complete} proved complete, {open} open, {moving} with a self-motion");
+}

@@ -9,9 +9,9 @@
 //! a function of φ alone, for another line (w′, g′). Its roots are the poses on that side, and they are simple
 //! wherever the pose is regular.
 
-use super::locked::Locked;
+use super::locked::{Locked, settle};
 use super::triangle::{Complex, Lines, Triangle, conjugate_times, dot, norm2};
-use super::{Roots, SelfMotion};
+use super::{Roots, SelfMotion, principal};
 use crate::num::{Interval, Jet, Scalar};
 use crate::robot::Platform;
 use arrayvec::ArrayVec;
@@ -39,6 +39,9 @@ struct Problem<'a> {
     numeric: Triangle<f64>,
 }
 
+/// Ranges of orientations, in rad, that are not cut any more.
+const FINEST: f64 = 1e-14;
+
 /// Adds to `roots` the poses with orientation in `phi` and counts them if it can.
 ///
 /// The range is cut until every part is settled or more than a few parts stay open at once, which is what poses
@@ -50,7 +53,6 @@ pub(super) fn resolve(
     roots: &mut Roots<3>,
 ) -> Result<(), SelfMotion> {
     const MOST_OPEN: usize = 16;
-    const FINEST: f64 = 1e-14;
     // Even six poses that meet spread less when the equations are off by a rounding (ε^(1/6) ≈ 0.002).
     const WIDEST: f64 = 0.05;
     let problem = Problem {
@@ -71,12 +73,7 @@ pub(super) fn resolve(
                         roots.push(pose)?;
                     }
                 }
-                Known::Open { free: true } if phi.width() < FINEST => return Err(SelfMotion),
-                Known::Open { .. } => {
-                    // Off the middle, where symmetric robots like to have their solutions.
-                    let cut = phi.lo + 0.47 * (phi.hi - phi.lo);
-                    parts.extend([Interval::new(phi.lo, cut), Interval::new(cut, phi.hi)]);
-                }
+                Known::Open { .. } => parts.extend(halves(phi)),
             }
         }
         open = parts;
@@ -86,7 +83,7 @@ pub(super) fn resolve(
         }
     }
     let (lo, hi) = (open[0].lo, open[open.len() - 1].hi);
-    if hi - lo > WIDEST {
+    if hi - lo > WIDEST || open.iter().any(|&phi| problem.stays_free(phi)) {
         return Err(SelfMotion);
     }
     let mut cuts: Vec<f64> = open.iter().map(|part| part.lo).collect();
@@ -113,7 +110,20 @@ fn mismatch<T: Scalar>(triangle: &Triangle<T>, phi: T, at: usize, other: usize, 
     dot(triangle.on_circle(w[at], g[at], side), w[other]) - g[other]
 }
 
+/// Two parts, cut off the middle, where symmetric robots like to have their solutions.
+fn halves(phi: Interval) -> [Interval; 2] {
+    let cut = phi.lo + 0.47 * (phi.hi - phi.lo);
+    [Interval::new(phi.lo, cut), Interval::new(cut, phi.hi)]
+}
+
 impl Problem<'_> {
+    /// Whether `phi` holds an orientation at which, as far as double precision can tell, nothing ties down (x, y)
+    /// but ‖u‖ = R₁.
+    fn stays_free(&self, phi: Interval) -> bool {
+        matches!(self.examine(phi), Known::Open { free: true })
+            && (phi.width() < FINEST || halves(phi).into_iter().any(|part| self.stays_free(part)))
+    }
+
     /// Counts the poses in `phi`: on a side on which h is proved monotonous, the signs at the ends tell.
     fn examine(&self, phi: Interval) -> Known {
         let mut poses = ArrayVec::new();
@@ -151,9 +161,10 @@ impl Problem<'_> {
     }
 
     /// The poses between the first and the last of `cuts` at which the equations hold to rounding: where h is zero,
-    /// and where it turns without reaching zero.
+    /// and where it turns without reaching zero; or, where so many poses meet that h is no guide, the nearest.
     fn approximate(&self, cuts: &[f64], roots: &mut Roots<3>) -> Result<(), SelfMotion> {
         roots.at_most = None;
+        let known = roots.poses.len();
         let (sin, cos) = cuts[cuts.len() / 2].sin_cos();
         let (at, other) = choose(discriminants(&self.numeric, &self.numeric.lines([cos, sin])));
         let turning: Triangle<Jet<f64, 1>> = self.exact.over();
@@ -176,6 +187,24 @@ impl Problem<'_> {
                 let pose = self.pose(Interval::new(pair[0], pair[1]), at, other, side);
                 roots.push_if_solution::<2>(Platform::PlaneBody, self.legs, pose)?;
             }
+        }
+        if roots.poses.len() == known { self.meeting(cuts, roots) } else { Ok(()) }
+    }
+
+    /// The pose among `cuts` where several poses meet, all struts being parallel: every line touches the circle.
+    fn meeting(&self, cuts: &[f64], roots: &mut Roots<3>) -> Result<(), SelfMotion> {
+        const ROOT_OF_ROUNDING: f64 = 1e-7;
+        let starts = cuts
+            .iter()
+            .flat_map(|&phi| (0..3).flat_map(move |at| [1.0, -1.0].map(|side| self.start(phi, at, side))));
+        let residual = |&(u, z): &(Complex<f64>, Complex<f64>)| self.numeric.residual(u, z);
+        let best = starts.min_by(|a, b| residual(a).total_cmp(&residual(b)));
+        let Some((u, z)) = best else { return Ok(()) };
+        let pose = settle::<2, 3>(Platform::PlaneBody, self.legs, self.numeric.pose(z, u));
+        let (lo, hi) = (cuts[0], cuts[cuts.len() - 1]);
+        let away = principal(pose[2] - 0.5 * (lo + hi)).abs();
+        if away <= hi - lo + ROOT_OF_ROUNDING {
+            roots.push_if_solution::<2>(Platform::PlaneBody, self.legs, pose)?;
         }
         Ok(())
     }

@@ -137,8 +137,9 @@ pub struct DirectSolutions {
 /// The angle within (−π, π].
 fn principal(angle: f64) -> f64 {
     use std::f64::consts::{PI, TAU};
-    let within = angle - TAU * ((angle - PI) / TAU).ceil();
-    if within <= -PI { within + TAU } else { within }
+    let within = if angle.abs() < PI { angle } else { angle - TAU * ((angle - PI) / TAU).ceil() };
+    // Rounding may leave it one step outside.
+    if within <= -PI { PI } else { within.min(PI) }
 }
 
 impl Robot {

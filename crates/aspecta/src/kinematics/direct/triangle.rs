@@ -128,6 +128,13 @@ impl Triangle<f64> {
         [x, y, z[1].atan2(z[0])]
     }
 
+    /// Σ |sᵢ² − Rᵢ²|, with s₁ = u and sᵢ = u + wᵢ.
+    pub fn residual(&self, u: Complex<f64>, z: Complex<f64>) -> f64 {
+        let Lines { w, .. } = self.lines(z);
+        let s = [u, plus(u, w[0]), plus(u, w[1])];
+        (0..3).map(|i| (norm2(s[i]) - self.r2[i]).abs()).sum()
+    }
+
     /// Newton's method from (u, z) on sᵢ² = Rᵢ², with s₁ = u and sᵢ = u + wᵢ: the best iterate. It stops after the first
     /// step so small that the next, quadratically smaller, is lost in rounding.
     pub fn polish(&self, mut u: Complex<f64>, mut z: Complex<f64>) -> (Complex<f64>, Complex<f64>) {
