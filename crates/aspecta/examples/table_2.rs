@@ -12,7 +12,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let analysis = analyze(&robot, &Options::default(), &control)?;
     println!("{}: at least {} generalized aspects", robot.title, analysis.aspects.low);
     for class in &analysis.classes {
-        println!("mode {}, det A {}: {} aspects, area {:.2}", class.mode, class.det_a, class.low, class.measure);
+        println!(
+            "mode {}, det A {}: {} aspects, area {:.2}",
+            class.mode, class.det_a, class.low, class.measure
+        );
         for aspect in &class.aspects {
             println!("  number {} holds the pose {:?}", aspect.id, aspect.sample.pose);
         }

@@ -5,26 +5,14 @@ use crate::num::{Interval, Jet};
 use crate::robot::Platform;
 use nalgebra::SMatrix;
 
-/// What interval arithmetic knows of the solutions in a box.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Verdict<const N: usize> {
-    /// Exactly one solution in the box, and it lies in this smaller one.
-    One([Interval; N]),
-    /// No solution.
-    None,
-    /// Cannot tell.
-    Unknown,
-}
-
 /// f(·, q) linearised at a point m, for the Krawczyk operator on boxes X round m,
 ///
 /// > K(X) = m − Y f(m) + (I − Y F(X)) (X − m),
 ///
 /// with Y ≈ f′(m)⁻¹ and F(X) an enclosure of f′ over X.
 ///
-/// *Theorem* (Krawczyk 1969; Neumaier, *Interval Methods for Systems of Equations*, 1990, theorem 5.1.8). Every
-/// zero of f in X lies in K(X); so if K(X) ∩ X is empty, X holds none. If K(X) lies in the interior of X, then
-/// f has exactly one zero in X, and f′ is regular there.
+/// *Theorem* (Krawczyk 1969; Neumaier, *Interval Methods for Systems of Equations*, 1990, theorem 5.1.8). If K(X)
+/// lies in the interior of X, then f has exactly one zero in X, and f′ is regular there.
 ///
 /// Robot constants and q are intervals here, so this holds for every robot and every q inside them.
 struct Krawczyk<'a, const D: usize, const N: usize> {
@@ -64,32 +52,10 @@ impl<'a, const D: usize, const N: usize> Krawczyk<'a, D, N> {
             image
         })
     }
-
-    fn judge(&self, region: &[Interval; N]) -> Verdict<N> {
-        let image = self.image(region);
-        let apart = |i: usize| image[i].hi < region[i].lo || region[i].hi < image[i].lo;
-        if (0..N).any(apart) {
-            Verdict::None
-        } else if inside(&image, region) {
-            Verdict::One(image)
-        } else {
-            Verdict::Unknown
-        }
-    }
 }
 
 fn inside<const N: usize>(inner: &[Interval; N], outer: &[Interval; N]) -> bool {
     (0..N).all(|k| outer[k].lo < inner[k].lo && inner[k].hi < outer[k].hi)
-}
-
-/// The solutions in `region`, a box in pose coordinates.
-pub(super) fn judge<const D: usize, const N: usize>(
-    platform: Platform,
-    legs: &[Locked],
-    region: &[Interval; N],
-) -> Verdict<N> {
-    Krawczyk::<D, N>::at(platform, legs, region.map(Interval::mid))
-        .map_or(Verdict::Unknown, |k| k.judge(region))
 }
 
 /// A box round the approximate solution `pose` proved to hold exactly one solution, or `None`.
@@ -125,4 +91,41 @@ pub(super) fn disjoint<const N: usize>(platform: Platform, a: &[Interval; N], b:
         let apart = |g: Interval| !g.contains(0.0);
         apart(gap) && (!platform.coordinates()[k].periodic || (apart(gap - turn) && apart(gap + turn)))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::robot::Leg;
+
+    /// Two circles of one radius round (±3, 0).
+    fn circles(radius: f64) -> [Locked; 2] {
+        [-3.0, 3.0].map(|x| Locked::new::<2>(&Leg::strut([x, 0.0], [0.0, 0.0]), radius))
+    }
+
+    #[test]
+    fn a_certificate_is_a_narrow_box_round_the_solution() {
+        let legs = circles(5.0);
+        let certify = |pose| certify::<2, 2>(Platform::PlanePoint, &legs, pose);
+        let up = certify([1e-9, 4.0]).unwrap();
+        assert!(up[0].contains(0.0) && up[1].contains(4.0) && up[1].width() < 1e-7);
+        let down = certify([0.0, -4.0]).unwrap();
+        assert!(disjoint(Platform::PlanePoint, &up, &down) && !disjoint(Platform::PlanePoint, &up, &up));
+    }
+
+    #[test]
+    fn none_without_a_solution_or_at_a_double_one() {
+        for (radius, pose) in [(5.0, [0.0, 0.0]), (3.0, [0.0, 0.0]), (3.0, [0.0, 1e-8]), (2.9, [0.0, 0.1])] {
+            assert_eq!(certify::<2, 2>(Platform::PlanePoint, &circles(radius), pose), None);
+        }
+    }
+
+    #[test]
+    fn angles_are_compared_modulo_a_turn() {
+        let at =
+            |phi: f64| [Interval::point(1.0), Interval::point(2.0), Interval::new(phi - 1e-9, phi + 1e-9)];
+        let pi = std::f64::consts::PI;
+        assert!(!disjoint(Platform::PlaneBody, &at(pi), &at(-pi)));
+        assert!(disjoint(Platform::PlaneBody, &at(pi), &at(-pi + 1e-6)));
+    }
 }

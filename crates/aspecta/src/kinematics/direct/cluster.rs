@@ -1,61 +1,79 @@
 //! Orientations at which the eliminant of a plane body cannot be told from zero.
 //!
 //! The eliminant F has a double root for two reasons: two poses meet (a parallel singularity), or two poses of
-//! one orientation, far apart and each regular, make both linear equations one (Δ = 0). To the second, F is
-//! blind: it takes the whole system to count the poses, here by the Krawczyk operator over boxes.
+//! one orientation, far apart and each regular, make both linear equations one (Δ = 0). To the second, F is blind.
+//! Here u is found from one line u · w = g and the circle, on either side of w, and what is left of the system is
+//!
+//! > h±(φ) = u±(φ) · w′ − g′,
+//!
+//! a function of φ alone, for another line (w′, g′). Its roots are the poses on that side, and they are simple
+//! wherever the pose is regular.
 
-use super::certify::{Verdict, judge};
-use super::locked::{Locked, polish, rounds_to_zero};
-use super::planar_body::{Lines, Triangle, norm2, times};
-use super::{Roots, SelfMotion};
-use crate::num::{Interval, Scalar};
+use super::locked::{Locked, settle};
+use super::triangle::{Complex, Lines, Triangle, conjugate_times, dot, norm2};
+use super::{Roots, SelfMotion, principal};
+use crate::num::{Interval, Jet, Scalar};
 use crate::robot::Platform;
 use arrayvec::ArrayVec;
 
 /// What is known of the poses with an orientation in some range.
 enum Known {
-    /// There are none, or at most one in each of these boxes.
-    Boxes(ArrayVec<[Interval; 3], 2>),
+    /// There is exactly one near each of these.
+    Poses(ArrayVec<[f64; 3], 2>),
     /// Not enough: cut the range.
     Open {
-        /// Whether no equation ties down (x, y) but ‖u‖ = R₁.
+        /// Whether nothing ties down (x, y) but ‖u‖ = R₁.
         free: bool,
     },
 }
 
+/// A function of φ and its derivative.
+type Slope = Jet<Interval, 1>;
+
+/// The three locked legs over all scalars that are needed here.
+struct Problem<'a> {
+    legs: &'a [Locked],
+    exact: Triangle<Interval>,
+    sloped: Triangle<Slope>,
+    curved: Triangle<Jet<Slope, 1>>,
+    numeric: Triangle<f64>,
+}
+
+/// Ranges of orientations, in rad, that are not cut any more.
+const FINEST: f64 = 1e-14;
+
 /// Adds to `roots` the poses with orientation in `phi` and counts them if it can.
 ///
-/// The range is cut until every part is settled or more than a few parts stay open at once, which is what
-/// poses that meet do; the solutions there are then approximated and their number stays open.
+/// The range is cut until every part is settled or more than a few parts stay open at once, which is what poses
+/// that meet do; the solutions there are then approximated and their number stays open.
 pub(super) fn resolve(
     legs: &[Locked],
     triangle: &Triangle<Interval>,
-    numeric: &Triangle<f64>,
     phi: Interval,
     roots: &mut Roots<3>,
 ) -> Result<(), SelfMotion> {
-    const MOST_OPEN: usize = 32;
-    const FINEST: f64 = 1e-14;
-    /// Six poses of one orientation spread no wider when the equations are off by a rounding.
+    const MOST_OPEN: usize = 16;
+    // Even six poses that meet spread less when the equations are off by a rounding (ε^(1/6) ≈ 0.002).
     const WIDEST: f64 = 0.05;
+    let problem = Problem {
+        legs,
+        exact: *triangle,
+        sloped: triangle.over(),
+        curved: triangle.over(),
+        numeric: triangle.over(),
+    };
     let mut open: Vec<Interval> = vec![phi];
     loop {
         let mut parts = Vec::new();
         for &phi in &open {
-            match examine(legs, triangle, phi) {
-                Known::Boxes(boxes) => {
-                    for region in &boxes {
-                        roots.at_most = roots.at_most.map(|n| n + 1);
-                        let middle = region.map(Interval::mid);
-                        roots.push(polish::<2, 3>(Platform::PlaneBody, legs, middle, f64::INFINITY))?;
+            match problem.examine(phi) {
+                Known::Poses(poses) => {
+                    roots.at_most = roots.at_most.map(|n| n + poses.len());
+                    for pose in poses {
+                        roots.push(pose)?;
                     }
                 }
-                Known::Open { free: true } if phi.width() < FINEST => return Err(SelfMotion),
-                Known::Open { .. } => {
-                    // Off the middle, where symmetric robots like to have their solutions.
-                    let cut = phi.lo + 0.47 * (phi.hi - phi.lo);
-                    parts.extend([Interval::new(phi.lo, cut), Interval::new(cut, phi.hi)]);
-                }
+                Known::Open { .. } => parts.extend(halves(phi)),
             }
         }
         open = parts;
@@ -64,76 +82,162 @@ pub(super) fn resolve(
             break;
         }
     }
-    let left = open.into_iter().reduce(Interval::hull).unwrap_or(phi);
-    if left.width() > WIDEST {
+    let (lo, hi) = (open[0].lo, open[open.len() - 1].hi);
+    if hi - lo > WIDEST || open.iter().any(|&phi| problem.stays_free(phi)) {
         return Err(SelfMotion);
     }
-    approximate(legs, numeric, left, roots)
+    let mut cuts: Vec<f64> = open.iter().map(|part| part.lo).collect();
+    cuts.push(hi);
+    problem.approximate(&cuts, roots)
 }
 
-fn examine(legs: &[Locked], triangle: &Triangle<Interval>, phi: Interval) -> Known {
+/// R₁² ‖w‖² − g², positive where the line u · w = g cuts the circle: ‖w‖² times the square of half the chord.
+fn discriminants<T: Scalar>(triangle: &Triangle<T>, Lines { w, g }: &Lines<T>) -> [T; 3] {
+    std::array::from_fn(|i| triangle.r2[0] * norm2(w[i]) - g[i].square())
+}
+
+/// The line on which to look for u, which ties it down best, and the next best.
+fn choose(discriminants: [f64; 3]) -> (usize, usize) {
+    let mut order = [0, 1, 2];
+    order.sort_unstable_by(|&a, &b| discriminants[b].total_cmp(&discriminants[a]));
+    (order[0], order[1])
+}
+
+/// h on one side of the line `at`, with the line `other`.
+fn mismatch<T: Scalar>(triangle: &Triangle<T>, phi: T, at: usize, other: usize, side: f64) -> T {
     let (sin, cos) = phi.sin_cos();
-    let z = [cos, sin];
-    let Lines { w, g } = triangle.lines(z);
-    let mut boxes = ArrayVec::new();
-    let misses = |i: usize| (triangle.r2 * norm2(w[i]) - g[i].square()).is_negative();
-    if (0..3).any(misses) {
-        return Known::Boxes(boxes);
-    }
-    let best = (0..3).reduce(|a, b| if norm2(w[a]).lo >= norm2(w[b]).lo { a } else { b }).unwrap_or(0);
-    let length2 = norm2(w[best]);
-    if !length2.is_positive() {
-        return Known::Open { free: (0..3).all(|i| g[i].contains(0.0)) };
-    }
-    // u = w (along ± i across), across² = R₁²/‖w‖² − along².
-    let along = g[best] / length2;
-    let across2 = triangle.r2 / length2 - along.square();
-    let across = across2.sqrt();
-    let sides: ArrayVec<Interval, 2> = if across2.is_positive() {
-        [across, -across].into()
-    } else {
-        std::iter::once(across.hull(-across)).collect()
-    };
-    for side in sides {
-        let u = times(w[best], [along, side]);
-        let on_line = |i: usize| (u[0] * w[i][0] + u[1] * w[i][1] - g[i]).contains(0.0);
-        if !(0..3).all(on_line) {
-            continue;
-        }
-        let [x, y] = triangle.position(z, u);
-        // K(X) in the interior of X wants a little air round the poses.
-        let air = |a: Interval| a + Interval::new(-0.1, 0.1) * Interval::point(a.width());
-        match judge::<2, 3>(Platform::PlaneBody, legs, &[x, y, phi].map(air)) {
-            Verdict::None => {}
-            Verdict::One(at) if at[2].hi < phi.lo || phi.hi < at[2].lo => {}
-            Verdict::One(at) => boxes.push(at),
-            Verdict::Unknown => return Known::Open { free: false },
-        }
-    }
-    Known::Boxes(boxes)
+    let Lines { w, g } = triangle.lines([cos, sin]);
+    dot(triangle.on_circle(w[at], g[at], side), w[other]) - g[other]
 }
 
-/// The poses near orientations `phi` at which the equations hold to rounding.
-fn approximate(
-    legs: &[Locked],
-    triangle: &Triangle<f64>,
-    phi: Interval,
-    roots: &mut Roots<3>,
-) -> Result<(), SelfMotion> {
-    roots.at_most = None;
-    // Newton's method closes in on two poses that meet from outside, one from either side.
-    for angle in [phi.lo, phi.hi, phi.mid()] {
-        let (sin, cos) = angle.sin_cos();
-        let Lines { w, g } = triangle.lines([cos, sin]);
-        let best = (0..3).reduce(|a, b| if norm2(w[a]) >= norm2(w[b]) { a } else { b }).unwrap_or(0);
+/// Two parts, cut off the middle, where symmetric robots like to have their solutions.
+fn halves(phi: Interval) -> [Interval; 2] {
+    let cut = phi.lo + 0.47 * (phi.hi - phi.lo);
+    [Interval::new(phi.lo, cut), Interval::new(cut, phi.hi)]
+}
+
+impl Problem<'_> {
+    /// Whether `phi` holds an orientation at which, as far as double precision can tell, nothing ties down (x, y)
+    /// but ‖u‖ = R₁.
+    fn stays_free(&self, phi: Interval) -> bool {
+        matches!(self.examine(phi), Known::Open { free: true })
+            && (phi.width() < FINEST || halves(phi).into_iter().any(|part| self.stays_free(part)))
+    }
+
+    /// Counts the poses in `phi`: on a side on which h is proved monotonous, the signs at the ends tell.
+    fn examine(&self, phi: Interval) -> Known {
+        let mut poses = ArrayVec::new();
+        let (sin, cos) = phi.sin_cos();
+        let lines = self.exact.lines([cos, sin]);
+        let cuts = discriminants(&self.exact, &lines);
+        if cuts.iter().any(|d| d.is_negative()) {
+            return Known::Poses(poses);
+        }
+        let (at, other) = choose(cuts.map(|d| d.lo));
+        if !cuts[at].is_positive() {
+            let vanishes = |i: usize| norm2(lines.w[i]).contains(0.0) && lines.g[i].contains(0.0);
+            return Known::Open { free: (0..3).all(vanishes) };
+        }
         for side in [1.0, -1.0] {
-            let u = triangle.on_circle(w[best], g[best], side);
-            let [x, y] = triangle.position([cos, sin], u);
-            let pose = polish::<2, 3>(Platform::PlaneBody, legs, [x, y, angle], 2.0 * phi.width());
-            if rounds_to_zero::<2, 3>(Platform::PlaneBody, legs, &pose) {
-                roots.push_new(Platform::PlaneBody, legs, pose)?;
+            let value = |phi: f64| mismatch(&self.exact, Interval::point(phi), at, other, side);
+            // Mean-value forms of h′ and of h, for narrow enclosures near an extremum of h.
+            let middle = Interval::point(phi.mid());
+            let at_middle = mismatch(&self.sloped, Jet::variable(middle, 0), at, other, side);
+            let over = mismatch(&self.curved, Jet::variable(Jet::variable(phi, 0), 0), at, other, side);
+            let [Jet { value: slope, gradient: [curvature] }] = over.gradient;
+            let slope = slope.meet(at_middle.gradient[0] + curvature * (phi - middle));
+            let range = at_middle.value + slope * (phi - middle);
+            if !range.contains(0.0) {
+                continue;
+            }
+            let ends = [value(phi.lo), value(phi.hi)];
+            match ends[0].sign() * ends[1].sign() * slope.sign().abs() {
+                0 => return Known::Open { free: false },
+                1 => {}
+                _ => poses.push(self.pose(phi, at, other, side)),
             }
         }
+        Known::Poses(poses)
     }
-    Ok(())
+
+    /// The poses between the first and the last of `cuts` at which the equations hold to rounding: where h is zero,
+    /// and where it turns without reaching zero; or, where so many poses meet that h is no guide, the nearest.
+    fn approximate(&self, cuts: &[f64], roots: &mut Roots<3>) -> Result<(), SelfMotion> {
+        roots.at_most = None;
+        let known = roots.poses.len();
+        let (sin, cos) = cuts[cuts.len() / 2].sin_cos();
+        let (at, other) = choose(discriminants(&self.numeric, &self.numeric.lines([cos, sin])));
+        let turning: Triangle<Jet<f64, 1>> = self.exact.over();
+        for side in [1.0, -1.0] {
+            let positive = |phi: f64| mismatch(&self.numeric, phi, at, other, side) > 0.0;
+            let rises =
+                |phi: f64| mismatch(&turning, Jet::variable(phi, 0), at, other, side).gradient[0] > 0.0;
+            let mut points = cuts.to_vec();
+            for pair in cuts.windows(2).filter(|p| rises(p[0]) != rises(p[1])) {
+                let turn = bisect(pair[0], pair[1], |phi| rises(phi) == rises(pair[0]));
+                points.push(turn);
+                if positive(pair[0]) == positive(turn) && positive(turn) == positive(pair[1]) {
+                    let (u, z) = self.start(turn, at, side);
+                    let pose = self.numeric.pose(z, u);
+                    roots.push_if_solution::<2>(Platform::PlaneBody, self.legs, pose)?;
+                }
+            }
+            points.sort_unstable_by(f64::total_cmp);
+            for pair in points.windows(2).filter(|p| positive(p[0]) != positive(p[1])) {
+                let pose = self.pose(Interval::new(pair[0], pair[1]), at, other, side);
+                roots.push_if_solution::<2>(Platform::PlaneBody, self.legs, pose)?;
+            }
+        }
+        if roots.poses.len() == known { self.meeting(cuts, roots) } else { Ok(()) }
+    }
+
+    /// The pose among `cuts` where several poses meet, all struts being parallel: every line touches the circle.
+    fn meeting(&self, cuts: &[f64], roots: &mut Roots<3>) -> Result<(), SelfMotion> {
+        const ROOT_OF_ROUNDING: f64 = 1e-7;
+        let starts = cuts
+            .iter()
+            .flat_map(|&phi| (0..3).flat_map(move |at| [1.0, -1.0].map(|side| self.start(phi, at, side))));
+        let residual = |&(u, z): &(Complex<f64>, Complex<f64>)| self.numeric.residual(u, z);
+        let best = starts.min_by(|a, b| residual(a).total_cmp(&residual(b)));
+        let Some((u, z)) = best else { return Ok(()) };
+        let pose = settle::<2, 3>(Platform::PlaneBody, self.legs, self.numeric.pose(z, u));
+        let (lo, hi) = (cuts[0], cuts[cuts.len() - 1]);
+        let away = principal(pose[2] - 0.5 * (lo + hi)).abs();
+        if away <= hi - lo + ROOT_OF_ROUNDING {
+            roots.push_if_solution::<2>(Platform::PlaneBody, self.legs, pose)?;
+        }
+        Ok(())
+    }
+
+    /// The pose at the one root of h in `range`: by bisection, polished if Newton's method stays there.
+    fn pose(&self, range: Interval, at: usize, other: usize, side: f64) -> [f64; 3] {
+        let positive = |phi: f64| mismatch(&self.numeric, phi, at, other, side) > 0.0;
+        let root = bisect(range.lo, range.hi, |phi| positive(phi) == positive(range.lo));
+        let (u, z) = self.start(root, at, side);
+        let (better_u, better_z) = self.numeric.polish(u, z);
+        // Within the range, seen from its middle: its angles go beyond π.
+        let (sin, cos) = range.mid().sin_cos();
+        let [along, across] = conjugate_times([cos, sin], better_z);
+        let stays = across.atan2(along).abs() <= 0.5 * (range.hi - range.lo);
+        if stays { self.numeric.pose(better_z, better_u) } else { self.numeric.pose(z, u) }
+    }
+
+    /// (u, z) on one side of the line `at`, whether or not it is on the other line.
+    fn start(&self, phi: f64, at: usize, side: f64) -> (Complex<f64>, Complex<f64>) {
+        let (sin, cos) = phi.sin_cos();
+        let Lines { w, g } = self.numeric.lines([cos, sin]);
+        (self.numeric.on_circle(w[at], g[at], side), [cos, sin])
+    }
+}
+
+/// Halves [lo, hi] until no double lies between; `first` holds at lo and not at hi, and at the point returned but
+/// not at the next.
+fn bisect(mut lo: f64, mut hi: f64, first: impl Fn(f64) -> bool) -> f64 {
+    loop {
+        let middle = 0.5 * (lo + hi);
+        if middle <= lo || hi <= middle {
+            return lo;
+        }
+        *(if first(middle) { &mut lo } else { &mut hi }) = middle;
+    }
 }

@@ -25,16 +25,10 @@ pub(super) struct Locked {
 pub(super) type LockedLegs = ArrayVec<Locked, 6>;
 
 impl Locked {
-    /// Locks a point-to-point leg at the joint coordinate `q`, taken with a slack of two to four units in
-    /// the last place of what q was computed from: a configuration whose q was rounded must not be lost.
-    /// Spherical legs have no such form; they stay as they are.
+    /// Locks a point-to-point leg at the joint coordinate `q`, within the [`slack`] of q: a configuration whose
+    /// q was rounded must not be lost. Spherical legs have no such form; they stay as they are.
     pub fn new<const D: usize>(leg: &Leg, q: f64) -> Self {
-        let computed_from = match &leg.actuator {
-            Actuator::Revolute { .. } | Actuator::Spherical { .. } => 1.0,
-            Actuator::Prismatic { rod } => rod.mid(),
-            Actuator::Strut => 0.0,
-        };
-        let slack = 2.0 * f64::EPSILON * q.abs().max(computed_from);
+        let slack = slack(leg, q);
         let q = Interval::new(q - slack, q + slack);
         let (local, length) = match &leg.actuator {
             Actuator::Revolute { crank, rod } => {
@@ -66,6 +60,19 @@ impl Locked {
     }
 }
 
+/// What rounding leaves open of a `q` that the inverse model made of a pose: a few units in the last place of the
+/// coordinates that went into it, seen as an angle of the crank where q is one.
+fn slack(leg: &Leg, q: f64) -> f64 {
+    let ends = largest(&leg.anchor) + largest(&leg.attachment);
+    let relative = match &leg.actuator {
+        Actuator::Revolute { crank, rod } => (q.abs() + 1.0).max((ends + crank.hi + rod.hi) / crank.lo),
+        Actuator::Prismatic { rod } => ends + rod.hi + q.abs(),
+        Actuator::Strut => ends + q.abs(),
+        Actuator::Spherical { .. } => q.abs() + 1.0,
+    };
+    2.0 * f64::EPSILON * relative
+}
+
 /// f(X), one leg equation a locked leg, for any scalar: values, enclosures, or either with gradients.
 #[inline]
 pub(super) fn equations<T: Scalar, const D: usize, const N: usize>(
@@ -92,20 +99,23 @@ pub(super) fn linearised<const D: usize, const N: usize>(
     (SVector::from_fn(|j, _| f[j].value), SMatrix::from_fn(|j, k| f[j].gradient[k]))
 }
 
+/// What makes a pose coordinate a number of order one: the longest leg, or a radian.
+pub(super) fn units<const N: usize>(platform: Platform, legs: &[Locked]) -> [f64; N] {
+    let longest = legs.iter().map(|l| l.q.hi).fold(0.0, f64::max);
+    std::array::from_fn(|k| if platform.coordinates()[k].angle { 1.0 } else { longest })
+}
+
 /// Newton's method from `x`: the best iterate, the one with the least residual.
 ///
-/// Steps are cut to `reach` (relative to the longest leg for lengths, in rad for angles). It stops after the
-/// first step so small that the next, quadratically smaller, is lost in rounding.
+/// It stops after the first step so small that the next, quadratically smaller, is lost in rounding.
 pub(super) fn polish<const D: usize, const N: usize>(
     platform: Platform,
     legs: &[Locked],
     x: [f64; N],
-    reach: f64,
 ) -> [f64; N] {
     const MOST_STEPS: usize = 12;
     const SMALL_STEP: f64 = 1e-10;
-    let longest = legs.iter().map(|l| l.q.hi).fold(0.0, f64::max);
-    let unit: [f64; N] = std::array::from_fn(|k| if platform.coordinates()[k].angle { 1.0 } else { longest });
+    let unit = units::<N>(platform, legs);
     let (mut best, mut least) = (x, f64::INFINITY);
     let mut here = x;
     for _ in 0..MOST_STEPS {
@@ -116,27 +126,64 @@ pub(super) fn polish<const D: usize, const N: usize>(
         }
         (best, least) = (here, residual);
         let Some(inverse) = jacobian.try_inverse() else { break };
-        let mut step = inverse * f;
-        let size = (0..N).map(|k| (step[k] / unit[k]).abs()).fold(0.0, f64::max);
-        if size > reach {
-            step *= reach / size;
-        }
+        let step = inverse * f;
         here = std::array::from_fn(|k| here[k] - step[k]);
-        if size < SMALL_STEP {
+        if (0..N).all(|k| step[k].abs() < SMALL_STEP * unit[k]) {
             return here;
         }
     }
     best
 }
 
-/// Whether the leg equations hold at `x` as far as double precision can tell: to a small multiple of the width
-/// that the rounding of q, of the robot's constants and of the arithmetic gives the residual's enclosure.
+/// Where the Levenberg-Marquardt method gets from `x`. For solutions of high multiplicity, at which ∂f/∂X loses more
+/// than one rank and Newton's method leaps away.
+pub(super) fn settle<const D: usize, const N: usize>(
+    platform: Platform,
+    legs: &[Locked],
+    x: [f64; N],
+) -> [f64; N] {
+    const STEPS: usize = 200;
+    let unit = units::<N>(platform, legs);
+    let at = |x: &[f64; N]| {
+        let (mut f, mut jacobian) = linearised::<D, N>(platform, legs, x);
+        for j in 0..N {
+            let size = legs[j].q.hi.powi(2);
+            f[j] /= size;
+            (0..N).for_each(|k| jacobian[(j, k)] *= unit[k] / size);
+        }
+        (f, jacobian)
+    };
+    let (mut best, (mut f, mut jacobian)) = (x, at(&x));
+    let mut damping = 1e-6;
+    for _ in 0..STEPS {
+        let normal = jacobian.transpose() * jacobian + SMatrix::identity() * damping;
+        let Some(factor) = normal.cholesky() else { break };
+        let step = factor.solve(&(jacobian.transpose() * f));
+        let trial = std::array::from_fn(|k| best[k] - unit[k] * step[k]);
+        let next = at(&trial);
+        if next.0.norm() < f.norm() {
+            (best, (f, jacobian)) = (trial, next);
+            damping *= 0.1;
+        } else {
+            damping *= 10.0;
+        }
+    }
+    best
+}
+
+/// Whether the leg equations hold at `x` as far as rounding lets them: |f| is within a few dozen units in the last
+/// place of the square of the coordinates that enter it.
 pub(super) fn rounds_to_zero<const D: usize, const N: usize>(
     platform: Platform,
     legs: &[Locked],
     x: &[f64; N],
 ) -> bool {
-    const WIDTHS: f64 = 16.0;
-    let f = equations::<Interval, D, N>(platform, legs, &x.map(Interval::point));
-    f.iter().all(|f| f.mid().abs() <= WIDTHS * f.width())
+    const ROUNDINGS: f64 = 64.0 * f64::EPSILON;
+    let f = equations::<f64, D, N>(platform, legs, x);
+    let size = |l: &Locked| l.q.hi + largest(&l.leg.anchor) + largest(&l.leg.attachment);
+    f.iter().zip(legs).all(|(f, leg)| f.abs() <= ROUNDINGS * size(leg).powi(2))
+}
+
+fn largest(v: &[Interval; 3]) -> f64 {
+    v.iter().map(|x| x.magnitude()).fold(0.0, f64::max)
 }

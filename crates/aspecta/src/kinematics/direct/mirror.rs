@@ -1,9 +1,10 @@
 //! Platforms that do not turn: both direct solutions are mirror images in the line (the plane) of the centres.
 
-use super::locked::{Locked, polish, rounds_to_zero};
+use super::locked::{Locked, linearised, polish};
 use super::{Roots, SelfMotion};
 use crate::num::Interval;
 use crate::robot::Platform;
+use nalgebra::SVector;
 
 /// The points foot ± √square · normal.
 #[derive(Clone, Copy, Debug)]
@@ -45,19 +46,39 @@ pub(super) fn solve<const D: usize>(
         Pair::SelfMotion => return Err(SelfMotion),
         Pair::Mirrored(pair) => pair,
     };
+    let vector = |of: &[Interval; D]| SVector::<f64, D>::from_fn(|k, _| of[k].mid());
+    let (foot, normal) = (vector(&pair.foot), vector(&pair.normal));
+    let height = pair.square.mid().max(0.0).sqrt();
     let mut roots = Roots::none();
     roots.at_most = Some(2);
-    let decided = pair.square.is_positive();
-    // Newton's method closes in on two poses that meet from outside, one from either side.
-    let height = if decided { pair.square.mid() } else { pair.square.hi }.max(0.0).sqrt();
     for side in [height, -height] {
-        let start = std::array::from_fn(|k| pair.foot[k].mid() + side * pair.normal[k].mid());
-        let pose = polish::<D, D>(platform, legs, start, f64::INFINITY);
-        if decided {
-            roots.push(pose)?;
-        } else if rounds_to_zero::<D, D>(platform, legs, &pose) {
-            roots.push_new(platform, legs, pose)?;
+        let start = foot + normal * side;
+        if pair.square.is_positive() {
+            roots.push(polish::<D, D>(platform, legs, start.into()))?;
+        } else {
+            let start = settled(platform, legs, start, normal.normalize());
+            roots.push_if_solution::<D>(platform, legs, polish::<D, D>(platform, legs, start.into()))?;
         }
     }
     Ok(roots)
+}
+
+/// The point at the same height over the line (the plane) of the centres that fulfils the leg equations best: least
+/// squares by Gauss and Newton. Where the centres are almost in line, the formula of the foot is not good enough.
+fn settled<const D: usize>(
+    platform: Platform,
+    legs: &[Locked],
+    mut x: SVector<f64, D>,
+    normal: SVector<f64, D>,
+) -> SVector<f64, D> {
+    for _ in 0..3 {
+        let (f, jacobian) = linearised::<D, D>(platform, legs, &x.into());
+        let level = jacobian - jacobian * normal * normal.transpose();
+        let squares = level.transpose() * level;
+        let Some(inverse) = (squares + normal * normal.transpose() * squares.trace()).try_inverse() else {
+            break;
+        };
+        x -= inverse * (level.transpose() * f);
+    }
+    x
 }

@@ -12,14 +12,17 @@
 //! Nothing is lost near double solutions: intervals decide how many poses there are, and where they cannot, every
 //! pose is returned whose leg equations hold to rounding.
 
+mod ball;
 mod bernstein;
 mod certify;
 mod circles;
 mod cluster;
+mod eliminant;
 mod locked;
 mod mirror;
 mod planar_body;
 mod spheres;
+mod triangle;
 
 use super::leg::eliminate;
 use super::limits::{LegAt, margin};
@@ -29,6 +32,7 @@ use crate::num::Interval;
 use crate::robot::{Actuator, Platform, Robot};
 use arrayvec::ArrayVec;
 use locked::{Locked, LockedLegs};
+use serde::Serialize;
 use std::cmp::Ordering;
 
 /// More than any platform has here, to leave room for doubtful near-double poses.
@@ -55,18 +59,26 @@ impl<const N: usize> Roots<N> {
         self.poses.try_push(pose).map_err(|_| SelfMotion)
     }
 
-    /// Adds a doubtful pose unless it is one already there: nearer than two poses that meet can be told apart,
-    /// √ε of the longest leg or of a radian.
-    fn push_new(&mut self, platform: Platform, legs: &[Locked], pose: [f64; N]) -> Result<(), SelfMotion> {
+    /// Adds a doubtful pose if its leg equations hold to rounding and it is not there already: nearer to another
+    /// than poses that meet can be told apart, √ε of the longest leg or of a radian.
+    fn push_if_solution<const D: usize>(
+        &mut self,
+        platform: Platform,
+        legs: &[Locked],
+        pose: [f64; N],
+    ) -> Result<(), SelfMotion> {
         const MEET: f64 = 1.5e-8;
-        let longest = legs.iter().map(|l| l.q.hi).fold(0.0, f64::max);
+        let unit = locked::units::<N>(platform, legs);
         let near = |other: &[f64; N]| {
             platform.coordinates().iter().enumerate().all(|(k, c)| {
                 let gap = pose[k] - other[k];
-                if c.angle { principal(gap).abs() <= MEET } else { gap.abs() <= MEET * longest }
+                (if c.angle { principal(gap) } else { gap }).abs() <= MEET * unit[k]
             })
         };
-        if self.poses.iter().any(near) { Ok(()) } else { self.push(pose) }
+        if !locked::rounds_to_zero::<D, N>(platform, legs, &pose) || self.poses.iter().any(near) {
+            return Ok(());
+        }
+        self.push(pose)
     }
 }
 
@@ -112,7 +124,7 @@ impl Poses {
 }
 
 /// All direct solutions, and whether they are proved to be all.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DirectSolutions {
     /// The solutions, sorted by angles, then by lengths.
     pub solutions: Vec<Solution>,
@@ -125,8 +137,9 @@ pub struct DirectSolutions {
 /// The angle within (−π, π].
 fn principal(angle: f64) -> f64 {
     use std::f64::consts::{PI, TAU};
-    let within = angle - TAU * ((angle - PI) / TAU).ceil();
-    if within <= -PI { within + TAU } else { within }
+    let within = if angle.abs() < PI { angle } else { angle - TAU * ((angle - PI) / TAU).ceil() };
+    // Rounding may leave it one step outside.
+    if within <= -PI { PI } else { within.min(PI) }
 }
 
 impl Robot {

@@ -1,7 +1,7 @@
 //! A body that does not turn on three legs: three spheres.
 
 use super::mirror::{MirrorPair, Pair};
-use crate::num::{Interval, Scalar, dot};
+use crate::num::{Interval, Scalar};
 
 type Vector = [Interval; 3];
 
@@ -41,7 +41,6 @@ pub(super) fn intersect(p: &[Vector; 3], r: &[Interval; 3]) -> Pair<3> {
         return Pair::SelfMotion;
     }
     let across = cross(&n, &e);
-    debug_assert!(dot(&across, &n).contains(0.0));
     Pair::Mirrored(MirrorPair {
         foot: std::array::from_fn(|j| p[0][j] + across[j] / n2),
         normal: n,
