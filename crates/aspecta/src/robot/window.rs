@@ -43,7 +43,9 @@ impl Robot {
         let mut window = Window { ranges: Vec::new(), glued: Vec::new(), angles: Vec::new() };
         for (k, c) in coordinates.iter().enumerate() {
             let natural = if c.angle { angle_range(c.periodic) } else { self.length_reach(k) };
-            let range = match self.window[k] {
+            // A range of a full turn is no limit.
+            let asked = self.window[k].filter(|r| !(c.periodic && r.1 - r.0 >= std::f64::consts::TAU - 1e-12));
+            let range = match asked {
                 Some((lo, hi)) if !c.angle => (natural.0.max(lo), natural.1.min(hi)),
                 Some(range) => range,
                 None => natural,
@@ -52,7 +54,7 @@ impl Robot {
                 return Err(Unbounded { robot: self.name.clone(), coordinate: c.name });
             }
             window.ranges.push(range);
-            window.glued.push(c.periodic && self.window[k].is_none());
+            window.glued.push(c.periodic && asked.is_none());
             window.angles.push(c.angle);
         }
         Ok(window)
