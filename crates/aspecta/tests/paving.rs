@@ -296,7 +296,7 @@ fn classes(paving: &Paving) -> impl Iterator<Item = (usize, WorkingMode, DetSign
 #[test]
 fn certificates_hold() {
     let mut seen = [[0usize; 4]; FAMILIES];
-    for (family, robot, rest) in robots(12) {
+    for (family, robot, rest) in robots(40) {
         let Some(analysis) = analyzed(&robot) else { continue };
         let paving = &analysis.paving;
         let mut dice = Dice(rest.iter());
@@ -346,7 +346,7 @@ fn check_box(robot: &Robot, node: &Node, paving: &Paving, x: &[f64], seen: &mut 
 #[test]
 fn located_poses_are_where_they_are_said_to_be() {
     let mut seen = [0usize; 2];
-    for (_, robot, rest) in robots(10) {
+    for (_, robot, rest) in robots(30) {
         let Some(analysis) = analyzed(&robot) else { continue };
         let mut dice = Dice(rest.iter());
         for _ in 0..100 {
@@ -397,7 +397,7 @@ fn check_bounds(analysis: &Analysis, class: usize, id: usize, x: &[f64]) {
 #[test]
 fn segments_are_what_is_claimed() {
     let mut seen = [0usize; 3];
-    for (_, mut robot, rest) in robots(14) {
+    for (_, mut robot, rest) in robots(40) {
         robot.window.fill(None);
         let mut dice = Dice(rest.iter());
         for _ in 0..4 {
