@@ -3,6 +3,7 @@
 
 use aspecta::aspect::{Analysis, DetSign, Options, Place, analyze};
 use aspecta::kinematics::WorkingMode;
+use aspecta::kinematics::modal::Constraint;
 use aspecta::kinematics::segment::{Along, along};
 use aspecta::num::Interval;
 use aspecta::paving::{Budget, Control, Mark, Node, Paving, Stop};
@@ -448,6 +449,32 @@ fn segments_are_what_is_claimed() {
         }
     }
     assert!(seen[0] > 30 && seen[1] > 300 && 20 * seen[2] < seen[1], "{seen:?}");
+}
+
+/// The first strut just clears its least length half-way, too narrowly for intervals to tell; the second then falls below
+/// its own. The failure that is proved is the second's.
+#[test]
+fn the_constraint_named_is_the_one_that_fails() {
+    let mut legs = vec![Leg::strut([0.0, 0.0], [0.0, 0.0]), Leg::strut([9.0, 0.0], [0.0, 0.0])];
+    let at_least = |min: f64| Limit::ActuatorLength { min: Interval::point(min), max: Interval::point(50.0) };
+    legs[0].limits.push(at_least(3f64.next_down()));
+    legs[1].limits.push(at_least(5.0));
+    let robot = Robot::new("two struts", Platform::PlanePoint, legs).unwrap();
+    let mode = "--".parse().unwrap();
+    let decide = |end: f64, sign| along(&robot, mode, sign, &[-5.0, 3.0], &[end, 3.0], 100_000);
+    let sign = robot.jacobians(&[-5.0, 3.0], &[34f64.sqrt(), 205f64.sqrt()]).unwrap().det_a().signum() as i8;
+    assert!(matches!(decide(4.0, sign), Along::Undecided { constraint: Constraint::Limit(0, 0), .. }));
+    let Along::Outside { constraint, from, to } = decide(7.0, sign) else {
+        panic!("{:?}", decide(7.0, sign))
+    };
+    // x = 5 is t = 10/12.
+    assert_eq!(constraint, Constraint::Limit(1, 0));
+    assert!(from <= 10.0 / 12.0 && 10.0 / 12.0 < to, "{from} {to}");
+    // Well clear of the first limit nothing is in doubt before the failure.
+    let Along::Outside { from, to, .. } = along(&robot, mode, sign, &[1.0, 3.0], &[7.0, 3.0], 100_000) else {
+        panic!()
+    };
+    assert!(from <= 4.0 / 6.0 && 4.0 / 6.0 < to && to - from < 1e-11, "{from} {to}");
 }
 
 // The tree.
