@@ -244,7 +244,7 @@ fn flood_fill_over_elbow_angles_counts_as_the_paving_does() {
 /// The sign of det A of the catalogue's 3-RPR at x, y, φ, from its figures; `None` beyond the struts' limits.
 fn three_rpr_sign([x, y, phi]: [f64; 3]) -> Option<bool> {
     let base = [[0.0, 0.0], [15.91, 0.0], [0.0, 10.0]];
-    let platform = [[0.0, 0.0], [17.04, 0.0], [13.236373239436620, 16.096708466836508]];
+    let platform = [[0.0, 0.0], [17.04, 0.0], [13.236_373_239_436_62, 16.096708466836508]];
     let (sin, cos) = phi.sin_cos();
     let [p, q, r]: [[f64; 3]; 3] = std::array::from_fn(|j| {
         let [bx, by]: [f64; 2] = platform[j];
