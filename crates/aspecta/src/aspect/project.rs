@@ -18,21 +18,18 @@ pub(super) fn hull(mut ranges: Vec<Interval>, circular: bool) -> (f64, f64) {
         return (whole.lo, whole.hi);
     }
     ranges.sort_by(|a, b| a.lo.total_cmp(&b.lo));
-    let (mut covered, mut widest, mut after) = (ranges[0].hi, 0.0, ranges[0].lo);
+    // Ranges may run over ±π: what lies beyond one end covers the other.
+    let (start, end) = (whole.lo, whole.hi);
+    let (mut widest, mut hull) = (start - (end - TAU), (start, end));
+    let mut covered = ranges[0].hi.max(end - TAU);
     for r in &ranges[1..] {
-        if r.lo - covered > widest {
-            (widest, after) = (r.lo - covered, r.lo);
+        let next = r.lo.min(start + TAU);
+        if next - covered > widest {
+            (widest, hull) = (next - covered, (next, covered + TAU));
         }
         covered = covered.max(r.hi);
     }
-    // The gap across ±π.
-    if ranges[0].lo + TAU - covered > widest {
-        return (whole.lo, covered);
-    }
-    if widest <= 0.0 {
-        return (-PI, PI);
-    }
-    (after, after + TAU - widest)
+    if widest > 0.0 { hull } else { (-PI, PI) }
 }
 
 /// Bounds, per pose coordinate, of the given boxes.
@@ -118,6 +115,9 @@ mod tests {
         assert_eq!(lo, 2.0);
         assert!((hi - (std::f64::consts::TAU - 2.5)).abs() < 1e-12);
         assert_eq!(hull(arcs, false), (-3.0, 3.1));
+        // The second arc runs over π, past the end of the first.
+        let (lo, hi) = hull(vec![Interval::new(-3.0, -2.9), Interval::new(2.0, 3.5)], true);
+        assert!(lo == 2.0 && (hi - 3.5).abs() < 1e-12, "{lo} {hi}");
         assert_eq!(
             hull(vec![Interval::new(-3.2, 0.0), Interval::new(-0.1, 3.2)], true).1,
             std::f64::consts::PI

@@ -61,9 +61,9 @@ fn along_in<const D: usize, const N: usize>(
         spent += 1;
         match stretch::<D, N>(robot, mode, sign, start, end, Interval::new(from, to)) {
             Stretch::Inside => {}
-            // The doubt before it, if any, is where the failure begins.
+            // It may begin at the doubt before it, if any.
             Stretch::Outside(constraint) => {
-                let (constraint, from, _) = doubt.unwrap_or((constraint, from, to));
+                let from = doubt.map_or(from, |(_, from, _)| from);
                 return Along::Outside { constraint, from, to };
             }
             Stretch::Open(constraint) if spent >= effort => {

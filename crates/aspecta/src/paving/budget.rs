@@ -23,15 +23,18 @@ pub const MAX_DEPTH: u32 = 20;
 pub const MAX_BOXES: u64 = 40_000_000;
 
 impl Budget {
-    /// The depth at which this budget ends in `window`: the one asked for, or that of the resolution; 11 in the
-    /// plane and 8 in space (a few seconds of work) if nothing is asked for at all.
+    /// The depth at which this budget ends in `window`: the one asked for or that of the resolution, whichever is
+    /// met first; 11 in the plane and 8 in space (a few seconds of work) if nothing is asked for at all.
     pub(super) fn depth_in(&self, window: &Window) -> u32 {
         let lengths = window.ranges.iter().zip(&window.angles).filter(|(_, angle)| !**angle);
         let widest = lengths.map(|(r, _)| r.1 - r.0).fold(0.0, f64::max);
-        let finest = self.resolution.map(|r| (widest / r).log2().ceil().max(1.0) as u32);
+        // A robot without lengths has no resolution to reach.
+        let resolution = self.resolution.filter(|_| widest > 0.0);
+        let finest = resolution.map(|r| (widest / r).log2().ceil().max(1.0) as u32);
         let usual = if window.axes().len() == 2 { 11 } else { 8 };
         let open = self.seconds.is_some() || self.boxes.is_some();
-        self.depth.or(finest).unwrap_or(if open { MAX_DEPTH } else { usual }).clamp(1, MAX_DEPTH)
+        let asked = self.depth.into_iter().chain(finest).min();
+        asked.unwrap_or(if open { MAX_DEPTH } else { usual }).clamp(1, MAX_DEPTH)
     }
 }
 

@@ -91,7 +91,9 @@ fn refine<const D: usize, const N: usize, const M: usize>(
             }
             paving.nodes.extend(children);
         }
-        paving.levels.push(paving.nodes.len());
+        if paving.levels.last() != Some(&paving.nodes.len()) {
+            paving.levels.push(paving.nodes.len());
+        }
         if paving.stop != Stop::Resolution {
             break;
         }

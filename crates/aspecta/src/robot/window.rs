@@ -44,7 +44,8 @@ impl Robot {
         for (k, c) in coordinates.iter().enumerate() {
             let natural = if c.angle { angle_range(c.periodic) } else { self.length_reach(k) };
             // A range of a full turn is no limit.
-            let asked = self.window[k].filter(|r| !(c.periodic && r.1 - r.0 >= std::f64::consts::TAU - 1e-12));
+            let asked =
+                self.window[k].filter(|r| !(c.periodic && r.1 - r.0 >= std::f64::consts::TAU - 1e-12));
             let range = match asked {
                 Some((lo, hi)) if !c.angle => (natural.0.max(lo), natural.1.min(hi)),
                 Some(range) => range,
