@@ -56,6 +56,10 @@ fn reach_of_rounding(robot: &Robot, pose: &[f64], q: &[f64]) -> f64 {
     const ROUNDING: f64 = 5e-14;
     const STEP: f64 = 1e-4;
     let svd = scaled_a(robot, pose, q).svd(true, true);
+    // Where A loses two ranks, two such parabolas follow one another: √√ε.
+    if svd.singular_values.iter().filter(|s| **s < 1e-6).count() > 1 {
+        return ROUNDING.sqrt().sqrt();
+    }
     let last = svd.singular_values.imin();
     let (l, n) = (svd.u.unwrap().column(last).into_owned(), svd.v_t.unwrap().row(last).transpose());
     let moved = |s: f64| -> Vec<f64> {

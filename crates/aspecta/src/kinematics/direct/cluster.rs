@@ -9,9 +9,9 @@
 //! a function of φ alone, for another line (w′, g′). Its roots are the poses on that side, and they are simple
 //! wherever the pose is regular.
 
-use super::locked::{Locked, settle};
+use super::locked::Locked;
 use super::triangle::{Complex, Lines, Triangle, conjugate_times, dot, norm2};
-use super::{Roots, SelfMotion, principal};
+use super::{Roots, SelfMotion};
 use crate::num::{Interval, Jet, Scalar};
 use crate::robot::Platform;
 use arrayvec::ArrayVec;
@@ -191,22 +191,24 @@ impl Problem<'_> {
         if roots.poses.len() == known { self.meeting(cuts, roots) } else { Ok(()) }
     }
 
-    /// The pose among `cuts` where several poses meet, all struts being parallel: every line touches the circle.
+    /// The pose where several poses meet and all struts are parallel: every line touches the circle, so that h is on the
+    /// brink of existence. What is left is to look for the orientation of least residual.
     fn meeting(&self, cuts: &[f64], roots: &mut Roots<3>) -> Result<(), SelfMotion> {
-        const ROOT_OF_ROUNDING: f64 = 1e-7;
-        let starts = cuts
-            .iter()
-            .flat_map(|&phi| (0..3).flat_map(move |at| [1.0, -1.0].map(|side| self.start(phi, at, side))));
-        let residual = |&(u, z): &(Complex<f64>, Complex<f64>)| self.numeric.residual(u, z);
-        let best = starts.min_by(|a, b| residual(a).total_cmp(&residual(b)));
-        let Some((u, z)) = best else { return Ok(()) };
-        let pose = settle::<2, 3>(Platform::PlaneBody, self.legs, self.numeric.pose(z, u));
-        let (lo, hi) = (cuts[0], cuts[cuts.len() - 1]);
-        let away = principal(pose[2] - 0.5 * (lo + hi)).abs();
-        if away <= hi - lo + ROOT_OF_ROUNDING {
-            roots.push_if_solution::<2>(Platform::PlaneBody, self.legs, pose)?;
-        }
-        Ok(())
+        let residual = |phi: f64, at: usize, side: f64| {
+            let (u, z) = self.start(phi, at, side);
+            self.numeric.residual(u, z)
+        };
+        let searches = cuts.windows(2).flat_map(|range| {
+            (0..3).flat_map(move |at| {
+                [1.0, -1.0].map(|side| {
+                    let phi = minimise(range[0], range[1], |phi| residual(phi, at, side));
+                    (phi, at, side, residual(phi, at, side))
+                })
+            })
+        });
+        let Some((phi, at, side, _)) = searches.min_by(|a, b| a.3.total_cmp(&b.3)) else { return Ok(()) };
+        let (u, z) = self.start(phi, at, side);
+        roots.push_if_solution::<2>(Platform::PlaneBody, self.legs, self.numeric.pose(z, u))
     }
 
     /// The pose at the one root of h in `range`: by bisection, polished if Newton's method stays there.
@@ -240,4 +242,18 @@ fn bisect(mut lo: f64, mut hi: f64, first: impl Fn(f64) -> bool) -> f64 {
         }
         *(if first(middle) { &mut lo } else { &mut hi }) = middle;
     }
+}
+
+/// Where `f` is least in [lo, hi], by thirds: f falls, then rises.
+fn minimise(mut lo: f64, mut hi: f64, f: impl Fn(f64) -> f64) -> f64 {
+    // (2/3)^90 < ε.
+    for _ in 0..90 {
+        let third = (hi - lo) / 3.0;
+        if f(lo + third) <= f(hi - third) {
+            hi -= third;
+        } else {
+            lo += third;
+        }
+    }
+    lo
 }

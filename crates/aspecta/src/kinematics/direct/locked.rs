@@ -135,42 +135,6 @@ pub(super) fn polish<const D: usize, const N: usize>(
     best
 }
 
-/// Where the Levenberg-Marquardt method gets from `x`. For solutions of high multiplicity, at which ∂f/∂X loses more
-/// than one rank and Newton's method leaps away.
-pub(super) fn settle<const D: usize, const N: usize>(
-    platform: Platform,
-    legs: &[Locked],
-    x: [f64; N],
-) -> [f64; N] {
-    const STEPS: usize = 200;
-    let unit = units::<N>(platform, legs);
-    let at = |x: &[f64; N]| {
-        let (mut f, mut jacobian) = linearised::<D, N>(platform, legs, x);
-        for j in 0..N {
-            let size = legs[j].q.hi.powi(2);
-            f[j] /= size;
-            (0..N).for_each(|k| jacobian[(j, k)] *= unit[k] / size);
-        }
-        (f, jacobian)
-    };
-    let (mut best, (mut f, mut jacobian)) = (x, at(&x));
-    let mut damping = 1e-6;
-    for _ in 0..STEPS {
-        let normal = jacobian.transpose() * jacobian + SMatrix::identity() * damping;
-        let Some(factor) = normal.cholesky() else { break };
-        let step = factor.solve(&(jacobian.transpose() * f));
-        let trial = std::array::from_fn(|k| best[k] - unit[k] * step[k]);
-        let next = at(&trial);
-        if next.0.norm() < f.norm() {
-            (best, (f, jacobian)) = (trial, next);
-            damping *= 0.1;
-        } else {
-            damping *= 10.0;
-        }
-    }
-    best
-}
-
 /// Whether the leg equations hold at `x` as far as rounding lets them: |f| is within a few dozen units in the last
 /// place of the square of the coordinates that enter it.
 pub(super) fn rounds_to_zero<const D: usize, const N: usize>(
