@@ -488,14 +488,14 @@ fn paved(robot: &Robot, depth: u32) -> Paving {
 fn cells(paving: &Paving, node: u32) -> Vec<(u64, u64)> {
     let size = 1u64 << (paving.depth() - paving.depth_of(node));
     let corner = paving.nodes[node as usize].corner;
-    corner[..paving.dimension].iter().map(|&c| (u64::from(c) * size, (u64::from(c) + 1) * size)).collect()
+    corner[..paving.axes.len()].iter().map(|&c| (u64::from(c) * size, (u64::from(c) + 1) * size)).collect()
 }
 
 /// Whether two closed boxes share a point, by arithmetic on their corners.
 fn share_a_point(paving: &Paving, a: &[(u64, u64)], b: &[(u64, u64)]) -> bool {
     let whole = 1u64 << paving.depth();
     let axes = paving.window.axes();
-    (0..paving.dimension).all(|k| {
+    (0..paving.axes.len()).all(|k| {
         let meet = |shift: i64| {
             let (lo, hi) = (b[k].0 as i64 + shift, b[k].1 as i64 + shift);
             a[k].0 as i64 <= hi && lo <= a[k].1 as i64
@@ -562,7 +562,7 @@ fn boxes_tile_the_window() {
     }
     for (name, depth) in [("five-bar", 7), ("3-rpr", 4), ("3-rrr", 4), ("spherical-3-rrr", 4)] {
         let paving = paved(&catalogue::find(name).unwrap(), depth);
-        let volume = |at: u32| 1u64 << (paving.dimension as u32 * (paving.depth() - paving.depth_of(at)));
+        let volume = |at: u32| 1u64 << (paving.axes.len() as u32 * (paving.depth() - paving.depth_of(at)));
         let whole: f64 = paving
             .window
             .axes()
@@ -575,7 +575,7 @@ fn boxes_tile_the_window() {
             paving.boxes_of(&sight, &mut |at| {
                 sum += volume(at);
                 let (lo, hi) = paving.bounds(at);
-                let product: f64 = (0..paving.dimension).map(|a| hi[a] - lo[a]).product();
+                let product: f64 = (0..paving.axes.len()).map(|a| hi[a] - lo[a]).product();
                 assert!((product / paving.measure(paving.depth_of(at)) - 1.0).abs() < 1e-9);
                 measure += product;
             });
