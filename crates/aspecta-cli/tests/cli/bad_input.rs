@@ -60,7 +60,7 @@ fn lists_of_the_wrong_length() {
 fn working_modes_the_robot_does_not_have() {
     refused(
         "ik five-bar --pose 4,7 --mode +",
-        &["`+` is not a working mode of `five-bar`; it has ++, +-, -+, --"],
+        &["`+` is not a working mode of `five-bar`; it has ++, +-, --, -+"],
     );
     refused("ik five-bar --pose 4,7 --mode up", &["`up` is not a working mode"]);
     refused("state 3-rpr --pose 3,4,0 --mode +++", &["it has ---"]);
