@@ -7,7 +7,7 @@ use super::project::{q_bounds, w_bounds};
 use super::result::*;
 use crate::kinematics::WorkingMode;
 use crate::paving::{Budget, Control, Mark, Node, Paving, Progress};
-use crate::robot::{Actuator, Leg, Platform, Robot, Unbounded};
+use crate::robot::{Actuator, Leg, Robot, Unbounded};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -115,7 +115,7 @@ fn find(robot: &Robot, paving: &Paving, m: usize, det_a: DetSign, control: &Cont
     let mode = paving.modes[m];
     let bit = 1 << (2 * m + usize::from(det_a == DetSign::Negative));
     let sight = |node: &Node| node.of_classes(bit);
-    let components = Components::new(paving, &sight, &folds(robot, paving, &sight));
+    let components = Components::new(robot, paving, &sight);
     let class = Class { mode, sign: det_a.factor(), bit };
     let mut joined = merge(robot, paving, class, &components, control);
     // Pieces by component of G⁺, and those components by measure.
@@ -190,27 +190,6 @@ fn number(found: Vec<Found>) -> (Vec<AspectClass>, Vec<Vec<(u32, u32)>>) {
         labels.push(of_class);
     }
     (classes, labels)
-}
-
-/// Pairs of boxes of a set that may touch where the coordinates fold up: at pitch = ±π/2 roll and yaw turn about the same
-/// axis, so boxes there may touch whatever their roll and yaw.
-pub(super) fn folds(robot: &Robot, paving: &Paving, sight: &impl Fn(&Node) -> Mark) -> Vec<(u32, u32)> {
-    if robot.platform != Platform::TurningBody {
-        return Vec::new();
-    }
-    let half_turn = std::f64::consts::FRAC_PI_2;
-    let mut pairs = Vec::new();
-    let mut at_pole: [Option<u32>; 2] = [None; 2];
-    paving.boxes_of(sight, &mut |at| {
-        let (lo, hi) = paving.bounds(at);
-        for (pole, touches) in [lo[1] <= -half_turn, hi[1] >= half_turn].into_iter().enumerate() {
-            if touches {
-                let first = *at_pole[pole].get_or_insert(at);
-                pairs.push((first, at));
-            }
-        }
-    });
-    pairs
 }
 
 fn mode_report(robot: &Robot, paving: &Paving, m: usize, mode: WorkingMode) -> ModeReport {

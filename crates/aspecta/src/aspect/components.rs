@@ -1,6 +1,7 @@
 //! Connected components of the boxes of a class: the two graphs of the sandwich.
 
 use crate::paving::{Mark, Node, Paving};
+use crate::robot::{Platform, Robot};
 
 /// Disjoint sets, by path halving and union by index.
 pub(super) struct UnionFind(Vec<u32>);
@@ -57,9 +58,8 @@ impl Components {
     /// G⁺ joins inside and undecided boxes that share a point; G⁻ joins inside boxes that do. A connected
     /// component of the set is covered by the closed boxes of the first kind, so it lies in one component of G⁺;
     /// closed inside boxes that share a point lie in one component of the set (`docs/theory.md`, the sandwich).
-    /// `also_touching` are pairs of boxes that may touch where coordinates fold up: they join G⁺ only, which keeps the
-    /// lower bound a lower bound.
-    pub(super) fn new(paving: &Paving, sight: &impl Fn(&Node) -> Mark, also_touching: &[(u32, u32)]) -> Self {
+    /// Boxes that may touch where coordinates fold up join G⁺ only, which keeps the lower bound a lower bound.
+    pub(super) fn new(robot: &Robot, paving: &Paving, sight: &impl Fn(&Node) -> Mark) -> Self {
         let mut boxes = Vec::new();
         paving.boxes_of(sight, &mut |at| boxes.push(at));
         boxes.sort_unstable();
@@ -77,7 +77,7 @@ impl Components {
                 inner.union(i, j);
             }
         });
-        for &(a, b) in also_touching {
+        for (a, b) in folds(robot, paving, sight) {
             all.union(index_of[a as usize], index_of[b as usize]);
         }
         let mut components = Self {
@@ -116,6 +116,27 @@ impl Components {
     pub(super) fn piece_at(&self, node: u32) -> Option<u32> {
         self.boxes.binary_search(&node).ok().and_then(|i| self.piece_of[i])
     }
+}
+
+/// Pairs of boxes of a set that may touch where the coordinates fold up: at pitch = ±π/2 roll and yaw turn about the same
+/// axis, so boxes there may touch whatever their roll and yaw.
+fn folds(robot: &Robot, paving: &Paving, sight: &impl Fn(&Node) -> Mark) -> Vec<(u32, u32)> {
+    if robot.platform != Platform::TurningBody {
+        return Vec::new();
+    }
+    let half_turn = std::f64::consts::FRAC_PI_2;
+    let mut pairs = Vec::new();
+    let mut at_pole: [Option<u32>; 2] = [None; 2];
+    paving.boxes_of(sight, &mut |at| {
+        let (lo, hi) = paving.bounds(at);
+        for (pole, touches) in [lo[1] <= -half_turn, hi[1] >= half_turn].into_iter().enumerate() {
+            if touches {
+                let first = *at_pole[pole].get_or_insert(at);
+                pairs.push((first, at));
+            }
+        }
+    });
+    pairs
 }
 
 #[cfg(test)]

@@ -74,7 +74,7 @@ fn domains(
     sight: &impl Fn(&Node) -> Mark,
     mode: &impl Fn(&Node) -> WorkingMode,
 ) -> Vec<EarlierDomain> {
-    let components = Components::new(paving, sight, &super::analyze::folds(robot, paving, sight));
+    let components = Components::new(robot, paving, sight);
     let mut by_component = std::collections::BTreeMap::<u32, (f64, u32)>::new();
     for piece in &components.pieces {
         let (sum, largest) = by_component.entry(piece.component).or_insert((0.0, piece.largest));
