@@ -1,13 +1,13 @@
 //! Generalized aspects: the paper's Table 2 under every change that must not matter, brute force in coordinates in which it
 //! can be trusted, limits, determinism.
 
-use aspecta::aspect::{Analysis, DetSign, Options, Reachable, analyze};
+use aspecta::aspect::{Analysis, DetSign, Options, Place, Reachable, analyze};
 use aspecta::kinematics::WorkingMode;
 use aspecta::num::Interval;
 use aspecta::paving::{Budget, Control};
 use aspecta::robot::{Actuator, Leg, Platform, Robot, catalogue};
 use std::collections::{BTreeMap, HashSet, VecDeque};
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 use std::sync::atomic::AtomicBool;
 
 static NEVER: AtomicBool = AtomicBool::new(false);
@@ -343,6 +343,32 @@ fn the_3_rpr_has_two_aspects() {
         let most = class.measure + class.undecided;
         assert!(class.measure < 1.01 * volume && 0.99 * volume < most, "{volume} {} {most}", class.measure);
     }
+}
+
+/// φ = −175° is 185°: a pose is where it is, whichever way its angle is written.
+#[test]
+fn locate_counts_angles_modulo_full_turns() {
+    let mut robot = catalogue::find("3-rpr").unwrap();
+    let degrees = |d: f64| d.to_radians();
+    robot.window[2] = Some((degrees(165.0), degrees(195.0)));
+    let analysis = analyzed(&robot, 5);
+    let mut located = 0;
+    for i in 0..1000 {
+        let part = |k: usize| (f64::from(i) * [0.618_034, 0.754_878, 0.569_84][k]).fract();
+        let at = |k: usize| {
+            analysis.window.ranges[k].0
+                + part(k) * (analysis.window.ranges[k].1 - analysis.window.ranges[k].0)
+        };
+        let pose = [at(0), at(1), at(2)];
+        for class in 0..2 {
+            let place = analysis.locate(class, &pose);
+            located += usize::from(matches!(place, Place::Inside(_)));
+            assert_eq!(place, analysis.locate(class, &[pose[0], pose[1], pose[2] - TAU]));
+            assert_eq!(place, analysis.locate(class, &[pose[0], pose[1], pose[2] + TAU]));
+        }
+        assert_eq!(analysis.locate(0, &[pose[0], pose[1], 0.5]), Place::Outside);
+    }
+    assert!(located > 20, "{located}");
 }
 
 // Runs.

@@ -64,10 +64,11 @@ impl Analysis {
         self.labels[class].iter().map(cell).collect()
     }
 
-    /// Where `pose` is, as class `class` (index into [`Analysis::classes`]) sees it. A pose on the boundary of two
-    /// cells may get the answer of either.
+    /// Where `pose` is, as class `class` (index into [`Analysis::classes`]) sees it; angles count modulo 2π. A pose on the
+    /// boundary of two cells may get the answer of either.
     pub fn locate(&self, class: usize, pose: &[f64]) -> Place {
-        let found = self.paving.find(&|node| node.of_classes(1 << class), pose).and_then(|(node, _)| {
+        let pose: Vec<f64> = pose.iter().enumerate().map(|(k, &x)| self.window.turned_in(k, x)).collect();
+        let found = self.paving.find(&|node| node.of_classes(1 << class), &pose).and_then(|(node, _)| {
             let labels = &self.labels[class];
             labels.binary_search_by_key(&node, |l| l.0).ok().map(|k| labels[k].1)
         });

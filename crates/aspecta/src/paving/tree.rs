@@ -190,6 +190,13 @@ impl Window {
         lo + (hi - lo) * part
     }
 
+    /// `x`, or, if coordinate k is an angle that lies in the window but for full turns, the angle in the window.
+    pub fn turned_in(&self, k: usize, x: f64) -> f64 {
+        let (lo, hi) = self.ranges[k];
+        let turned = lo + (x - lo).rem_euclid(std::f64::consts::TAU);
+        if self.angles[k] && !(lo..=hi).contains(&x) && turned <= hi { turned } else { x }
+    }
+
     /// Where in the range of coordinate k the value lies, in [0, 1]; `None` if outside.
     pub fn fraction(&self, k: usize, x: f64) -> Option<f64> {
         let (lo, hi) = self.ranges[k];
