@@ -50,10 +50,10 @@ pub(super) fn w_bounds(paving: &Paving, boxes: &[u32]) -> Vec<(f64, f64)> {
 /// A box by its grid coordinates and depth.
 type Cell = ([u32; 3], u32);
 
-/// The given boxes, the finest replaced by the boxes two levels up that hold them: a cover of as good as the same
+/// The given boxes, the finest replaced by the boxes one level up that hold them: a cover of as good as the same
 /// extent with far fewer members.
 fn cover(paving: &Paving, boxes: &[u32]) -> Vec<Cell> {
-    let finest = paving.depth().saturating_sub(2);
+    let finest = paving.depth().saturating_sub(1);
     let coarse = |&node: &u32| {
         let (corner, depth) = (paving.nodes[node as usize].corner, paving.depth_of(node));
         let up = depth.saturating_sub(finest);
