@@ -5,6 +5,7 @@ use aspecta::kinematics::KinematicsError;
 use aspecta::motion::PathError;
 use aspecta::robot::FileError;
 use std::io;
+use std::path::{Path, PathBuf};
 
 /// What a command that ran found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,9 +41,24 @@ pub enum Failure {
     /// The path cannot be checked.
     #[error(transparent)]
     Path(#[from] PathError),
+    /// The directory of `--out` cannot be written to.
+    #[error("--out {}: {error}", directory.display())]
+    Directory {
+        /// The directory.
+        directory: PathBuf,
+        /// Why.
+        error: io::Error,
+    },
     /// Results cannot be written.
     #[error("cannot write the results: {0}")]
     Output(#[from] io::Error),
+}
+
+impl Failure {
+    /// What an error of the file system in the directory of `--out` is to the user.
+    pub fn in_directory(directory: &Path) -> impl Fn(io::Error) -> Self {
+        move |error| Self::Directory { directory: directory.to_owned(), error }
+    }
 }
 
 impl From<serde_json::Error> for Failure {

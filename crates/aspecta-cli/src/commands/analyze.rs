@@ -40,7 +40,7 @@ impl Analyze {
         let robot = input::robot(&self.robot)?;
         if let Some(directory) = &self.out {
             // Before the long work, not after it.
-            fs::create_dir_all(directory).map_err(|e| self.no_directory(&e))?;
+            fs::create_dir_all(directory).map_err(Failure::in_directory(directory))?;
         }
         if let Some(threads) = self.threads {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
@@ -72,7 +72,7 @@ impl Analyze {
         let Some(directory) = &self.out else { return Ok(()) };
         // People see the numbers while the figures are drawn.
         out.flush()?;
-        report::write(analysis, directory).map_err(|e| self.no_directory(&e))?;
+        report::write(analysis, directory).map_err(Failure::in_directory(directory))?;
         let written = format!("report: {}", directory.join("report.html").display());
         if self.json {
             note(&written);
@@ -80,11 +80,6 @@ impl Analyze {
             writeln!(out, "{written}")?;
         }
         Ok(())
-    }
-
-    fn no_directory(&self, e: &dyn std::error::Error) -> Failure {
-        let directory = self.out.as_deref().unwrap_or_else(|| ".".as_ref());
-        Failure::Input(format!("--out {}: {e}", directory.display()))
     }
 }
 

@@ -3,13 +3,16 @@
 use super::queries::{Labels, det_a_unit};
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
-use crate::output::{FORMAT_VERSION, Format, FormatArgs, exact, json, number};
-use aspecta::kinematics::modal::Constraint;
+use crate::output::{FORMAT_VERSION, Format, FormatArgs, exact, json, note, number};
 use aspecta::motion::{Obstacle, PathCheck, check_path};
 use aspecta::robot::Robot;
+use aspecta_cli::figure::profile::{failure, figure_11};
+use aspecta_cli::file;
 use clap::Args;
 use serde::Serialize;
-use std::io::Write;
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
 
 /// Arguments of `check-path`.
 #[derive(Args)]
@@ -24,6 +27,9 @@ pub struct CheckPath {
     /// Angles of the file and of what people read are in degrees
     #[arg(long)]
     deg: bool,
+    /// Draw det A and the B_jj along the path: figure11.svg in this directory
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
     #[command(flatten)]
     format: FormatArgs,
 }
@@ -43,6 +49,10 @@ impl CheckPath {
         let rows = input::rows(&self.path, &[Columns::pose(&robot)], self.deg)?;
         let poses: Vec<_> = rows.into_iter().map(|row| row.values).collect();
         let check = check_path(&robot, &poses, mode)?;
+        let draw = |directory: &PathBuf| {
+            draw(directory, &robot, &check, poses.len()).map_err(Failure::in_directory(directory))
+        };
+        let figure = self.out.as_ref().map(draw).transpose()?;
         match self.format.format() {
             Format::Json => {
                 json(out, &Document { format_version: FORMAT_VERSION, robot: &robot.name, check: &check })?;
@@ -50,8 +60,21 @@ impl CheckPath {
             Format::Csv => print_profile(out, &robot, &check)?,
             Format::Table => print(out, &robot, &check, poses.len(), self.deg)?,
         }
+        if let Some(figure) = figure {
+            let written = format!("figure: {}", figure.display());
+            match self.format.format() {
+                Format::Table => writeln!(out, "{written}")?,
+                Format::Json | Format::Csv => note(&written),
+            }
+        }
         Ok(Answer::from(check.singularity_free == Some(true) && check.within_limits == Some(true)))
     }
+}
+
+/// Writes figure 11 into a directory, which is created if need be.
+fn draw(directory: &Path, robot: &Robot, check: &PathCheck, points: usize) -> io::Result<PathBuf> {
+    fs::create_dir_all(directory)?;
+    file::put(directory, "figure11.svg", &figure_11(robot, check, points))
 }
 
 /// Figure 11: det A and the B_jj along the path, each divided by its largest modulus.
@@ -114,12 +137,6 @@ fn print(
 
 /// What fails, and where along the path.
 fn describe(obstacle: &Obstacle) -> String {
-    let what = match obstacle.constraint {
-        Constraint::Det => "det A vanishes or changes sign (parallel singularity)".to_owned(),
-        Constraint::Reach(j) => format!("leg {} reaches its limit (serial singularity)", j + 1),
-        Constraint::Limit(j, k) => format!("leg {} meets its joint limit {}", j + 1, k + 1),
-    };
-    let doubt = if obstacle.proved { "" } else { "not excluded: " };
     let (from, to) = obstacle.t;
-    format!("{doubt}{what}, segment {}, t = {} … {}", obstacle.segment, number(from), number(to))
+    format!("{}, segment {}, t = {} … {}", failure(obstacle), obstacle.segment, number(from), number(to))
 }

@@ -222,7 +222,12 @@ fn print_one(
     } else {
         format!(", legs in serial singularity: {}", legs.join(", "))
     };
-    writeln!(out, "singularity   {} (measures ≤ {:e}){which}", s.singularity.name(), s.tolerance)?;
+    writeln!(
+        out,
+        "singularity   {} (a measure ≤ {:e} counts as singular){which}",
+        s.singularity.name(),
+        s.tolerance
+    )?;
     writeln!(out, "residual      {:.1e}", s.residual)?;
     if matrices {
         for (j, (row, b)) in s.a.iter().zip(&s.b).enumerate() {

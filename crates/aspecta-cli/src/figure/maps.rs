@@ -215,7 +215,11 @@ pub(super) fn swatch(svg: &mut Svg, at: [f64; 2], colour: &str, text: &str) -> f
 }
 
 pub(super) fn sample_line(svg: &mut Svg, at: [f64; 2], kind: Kind, text: &str) -> f64 {
-    svg.line([at[0], at[1] - 4.0], [at[0] + 24.0, at[1] - 4.0], line_style(kind));
+    styled_line(svg, at, line_style(kind), text)
+}
+
+pub(super) fn styled_line(svg: &mut Svg, at: [f64; 2], style: &str, text: &str) -> f64 {
+    svg.line([at[0], at[1] - 4.0], [at[0] + 24.0, at[1] - 4.0], style);
     svg.text([at[0] + 30.0, at[1]], Anchor::Start, 11.0, "", text);
     at[0] + 48.0 + 5.6 * text.chars().count() as f64
 }

@@ -10,6 +10,7 @@ pub mod image;
 pub mod level;
 pub mod maps;
 pub mod palette;
+pub mod profile;
 pub mod raster;
 pub mod robot;
 mod skeleton;

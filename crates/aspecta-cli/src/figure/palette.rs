@@ -9,6 +9,9 @@ const ASPECTS: [&str; 12] = [
 /// Undecided cells.
 pub const UNDECIDED: &str = "#9b9b9b";
 
+/// Where a path fails.
+pub const OBSTACLE: &str = "#c1121f";
+
 /// Curves and axes.
 pub const INK: &str = "#222";
 

@@ -5,10 +5,11 @@ mod tables;
 mod volume;
 
 use crate::figure::{self, maps, slices, survey::Survey};
+use crate::file::put;
 use aspecta::aspect::{Analysis, AspectClass, Cell, Sample};
 use rayon::prelude::*;
 use std::fs;
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 
 /// A figure: its file name without extension, and the SVG.
@@ -49,22 +50,6 @@ pub fn write(analysis: &Analysis, dir: &Path) -> io::Result<Vec<PathBuf>> {
         written.push(put(&folder, &format!("{name}.svg"), svg)?);
     }
     Ok(written)
-}
-
-/// Writes a file under a temporary name, then renames it.
-fn put(dir: &Path, name: &str, text: &str) -> io::Result<PathBuf> {
-    let (path, draft) = (dir.join(name), dir.join(format!(".{name}.{}.part", std::process::id())));
-    let write = || -> io::Result<()> {
-        let mut file = fs::File::create(&draft)?;
-        file.write_all(text.as_bytes())?;
-        file.sync_all()?;
-        fs::rename(&draft, &path)
-    };
-    write().inspect_err(|_| {
-        // The first error is the one to report.
-        let _ = fs::remove_file(&draft);
-    })?;
-    Ok(path)
 }
 
 impl Figures {

@@ -91,3 +91,91 @@ fn bad_paths() {
         assert!(messages.contains(complaint), "{messages}");
     }
 }
+
+/// The figure `--out` writes, and the JSON beside it.
+fn figure_11(robot: &str, content: &str, mode: &str) -> (String, Value) {
+    let (directory, path) = file(content);
+    let out = directory.path().join("new/figures");
+    let mut command = aspecta(&format!("check-path {robot}"));
+    let output = command.arg(&path).args(["--mode", mode, "--json", "--out"]).arg(&out).output().unwrap();
+    let names: Vec<_> = fs::read_dir(&out).unwrap().map(|e| e.unwrap().file_name()).collect();
+    assert_eq!(names, ["figure11.svg"], "no draft is left");
+    assert!(String::from_utf8_lossy(&output.stderr).contains("figure11.svg"));
+    (fs::read_to_string(out.join("figure11.svg")).unwrap(), serde_json::from_slice(&output.stdout).unwrap())
+}
+
+/// The points of all paths below the elements of a class, one list an element.
+fn drawn(svg: &str, class: &str) -> Vec<Vec<[f64; 2]>> {
+    let document = roxmltree::Document::parse(svg).unwrap_or_else(|e| panic!("{e}: {svg}"));
+    let point = |p: &str| {
+        let (x, y) = p.split_once(' ').unwrap();
+        [x.parse().unwrap(), y.parse().unwrap()]
+    };
+    let points = |d: &str| d.split(['M', 'L']).filter(|p| !p.is_empty()).map(point).collect::<Vec<_>>();
+    let groups = document.descendants().filter(|n| n.attribute("class") == Some(class));
+    groups.map(|g| g.descendants().filter_map(|n| n.attribute("d")).flat_map(points).collect()).collect()
+}
+
+/// Heights of each curve above the zero line, in pixels.
+fn heights(svg: &str) -> Vec<Vec<f64>> {
+    let zero = drawn(svg, "zero")[0][0][1];
+    drawn(svg, "curve").iter().map(|c| c.iter().map(|p| zero - p[1]).collect()).collect()
+}
+
+#[test]
+fn figure_11_of_table_4_has_four_curves_and_none_meets_zero() {
+    let (svg, document) = figure_11("3-rrr", TABLE_4, "+++");
+    let curves = heights(&svg);
+    assert_eq!(curves.len(), 4, "det A and three B_jj");
+    let profile = document["profile"].as_array().unwrap();
+    for (k, curve) in curves.iter().enumerate() {
+        let largest = curve.iter().copied().fold(0.0, f64::max);
+        assert!(curve.iter().all(|&y| y > 0.05 * largest), "curve {k} meets zero");
+        assert_eq!(curve.len(), profile.len());
+        for (y, p) in curve.iter().zip(profile) {
+            let value = if k == 0 { p["det_a"].as_f64().unwrap() } else { numbers(&p["b"])[k - 1] };
+            assert!((y - value * largest).abs() < 0.03, "curve {k}: {y} px for {value}");
+        }
+    }
+    for label in ["Point 1", "Point 2", "Point 3", "det A", "B₁₁", "B₃₃"] {
+        assert!(svg.contains(&format!(">{label}</text>")), "{label}");
+    }
+    assert!(!svg.contains("obstacle"));
+}
+
+/// At (4, 12) leg 2, based at (9, 0), is stretched to 13 = √(5² + 12²): t = 5/7 of the way from (4, 7) to (4, 14).
+#[test]
+fn figure_11_shows_where_a_leg_ends() {
+    let (svg, _) = figure_11("five-bar", "4,7\n4,14\n", "++");
+    assert!(svg.contains(">leg 2 reaches its limit (serial singularity)</text>"));
+    let zero = &drawn(&svg, "zero")[0];
+    let expected = zero[0][0] + 5.0 / 7.0 * (zero[1][0] - zero[0][0]);
+    let document = roxmltree::Document::parse(&svg).unwrap();
+    let band = document.descendants().find(|n| n.attribute("class") == Some("obstacle")).unwrap();
+    let number = |name| band.first_element_child().unwrap().attribute(name).unwrap().parse::<f64>().unwrap();
+    assert!((number("x") + number("width") / 2.0 - expected).abs() < 0.02, "{svg}");
+    assert!(number("width") < 4.0);
+    // Out of reach there is nothing to draw.
+    let curves = drawn(&svg, "curve");
+    assert_eq!(curves.len(), 3);
+    assert!(curves.iter().flatten().all(|p| p[0] <= expected));
+}
+
+/// What the test of Table 4 looks for is seen where it is: det A crosses zero, the B_jj do not.
+#[test]
+fn figure_11_shows_a_change_of_sign() {
+    let (svg, _) = figure_11("five-bar", "4,7\n3,5\n4,6\n", "+-");
+    let crosses = |c: &Vec<f64>| c.iter().any(|&y| y > 0.0) && c.iter().any(|&y| y < 0.0);
+    assert_eq!(heights(&svg).iter().map(crosses).collect::<Vec<_>>(), [true, false, false]);
+    assert!(svg.contains(">det A vanishes or changes sign (parallel singularity)</text>"));
+    assert!(svg.contains("up to point 2 of 3"));
+}
+
+#[test]
+fn a_figure_that_cannot_be_written_is_bad_input() {
+    let (_directory, path) = file(TABLE_4);
+    let mut command = aspecta("check-path 3-rrr --mode +++ --out");
+    let output = command.args([&path, &path]).output().unwrap();
+    let messages = String::from_utf8_lossy(&output.stderr);
+    assert_eq!((output.status.code(), messages.contains("--out ")), (Some(2), true), "{messages}");
+}

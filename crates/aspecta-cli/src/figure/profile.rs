@@ -1,0 +1,163 @@
+//! Figure 11: det A and the B_jj along a path. The curves are *numerical*; the obstacle is what intervals found.
+
+use super::axes::{Axis, Chart};
+use super::maps::{styled_line, swatch};
+use super::palette::{self, INK, OBSTACLE};
+use super::robot::{signs, subscript};
+use super::svg::{Anchor, Svg};
+use aspecta::kinematics::modal::Constraint;
+use aspecta::motion::{Obstacle, PathCheck, ProfilePoint};
+use aspecta::robot::Robot;
+
+/// Pixels the label of a point takes, so that neighbours do not run into each other.
+const LABEL: f64 = 52.0;
+/// Narrowest band an obstacle is drawn as, pixels.
+const BAND: f64 = 3.0;
+
+/// det A and the B_jj, each divided by its largest modulus, over segment + t: Point k of the path is at k.
+///
+/// `points` is the number of poses of the path; the figure ends where the check does.
+pub fn figure_11(robot: &Robot, check: &PathCheck, points: usize) -> String {
+    let last = last_point(check);
+    let chart = Chart {
+        x: Axis {
+            label: "segment + t, with t from 0 to 1 along each segment".into(),
+            range: (1.0, last as f64),
+            angle: false,
+        },
+        y: Axis { label: "value / largest modulus".into(), range: (-1.25, 1.25), angle: false },
+        left: 58.0,
+        top: 26.0,
+        width: 640.0,
+        height: 340.0,
+    };
+    let mode = signs(&check.mode.to_string());
+    let rest = if last < points { format!(", up to point {last} of {points}") } else { String::new() };
+    let title = format!("{}, mode ({mode}): det A and B along the path{rest}", robot.name);
+    let mut svg = Svg::new("figure11", 714.0, 446.0, &title);
+    svg.open("class=\"zero\"");
+    let [y0, y1] = [chart.x.range.0, chart.x.range.1].map(|x| chart.at([x, 0.0]));
+    svg.line(y0, y1, &format!("fill:none;stroke:{INK};stroke-width:0.8"));
+    svg.close();
+    mark_points(&mut svg, &chart, last);
+    let curves = curves(robot);
+    chart.clip(&mut svg);
+    if let Some(obstacle) = &check.obstacle {
+        band(&mut svg, &chart, obstacle);
+    }
+    for curve in &curves {
+        svg.open("class=\"curve\"");
+        for run in runs(&check.profile) {
+            let line: Vec<_> = run.iter().map(|p| chart.at([along(p), (curve.value)(p)])).collect();
+            svg.polyline(&line, false, &curve.style);
+        }
+        svg.close();
+    }
+    svg.close();
+    if let Some(obstacle) = &check.obstacle {
+        name_obstacle(&mut svg, &chart, obstacle);
+    }
+    chart.frame(&mut svg, &title);
+    legend(&mut svg, &curves, check.obstacle.is_some(), [chart.left, 426.0]);
+    svg.finish()
+}
+
+/// What fails at an obstacle, in words.
+pub fn failure(obstacle: &Obstacle) -> String {
+    let what = match obstacle.constraint {
+        Constraint::Det => "det A vanishes or changes sign (parallel singularity)".to_owned(),
+        Constraint::Reach(j) => format!("leg {} reaches its limit (serial singularity)", j + 1),
+        Constraint::Limit(j, k) => format!("leg {} meets its joint limit {}", j + 1, k + 1),
+    };
+    if obstacle.proved { what } else { format!("not excluded: {what}") }
+}
+
+/// The number of the point at which the check ended.
+fn last_point(check: &PathCheck) -> usize {
+    let segments = check.profile.last().map(|p| p.segment).into_iter();
+    segments.chain(check.obstacle.as_ref().map(|o| o.segment)).max().unwrap_or(1) + 1
+}
+
+fn along(p: &ProfilePoint) -> f64 {
+    p.segment as f64 + p.t
+}
+
+/// One of the determinants.
+struct Curve {
+    name: String,
+    style: String,
+    value: Box<dyn Fn(&ProfilePoint) -> f64>,
+}
+
+/// det A and, told apart by colour and dashes, the B_jj.
+fn curves(robot: &Robot) -> Vec<Curve> {
+    const DASHES: [&str; 3] = ["7 3", "2 2.5", "9 3 2 3"];
+    let style = |colour: &str, rest: &str| format!("fill:none;stroke:{colour};{rest};stroke-linejoin:round");
+    let det =
+        Curve { name: "det A".into(), style: style(INK, "stroke-width:2"), value: Box::new(|p| p.det_a) };
+    let leg = |j: usize| Curve {
+        name: format!("B{0}{0}", subscript(j + 1)),
+        style: style(
+            palette::aspect(j + 1),
+            &format!("stroke-width:1.8;stroke-dasharray:{}", DASHES[j % DASHES.len()]),
+        ),
+        value: Box::new(move |p| p.b[j]),
+    };
+    [det].into_iter().chain((0..robot.dof()).map(leg)).collect()
+}
+
+/// The samples in stretches without a gap: there are none where the path is out of reach.
+fn runs(profile: &[ProfilePoint]) -> impl Iterator<Item = &[ProfilePoint]> {
+    let steps = profile.windows(2).map(|w| along(&w[1]) - along(&w[0]));
+    let step = steps.filter(|&s| s > 0.0).fold(f64::INFINITY, f64::min);
+    profile.chunk_by(move |a, b| along(b) - along(a) < 1.5 * step)
+}
+
+/// A thin line at every point of the path, and the names of the last and of as many others as there is room for.
+fn mark_points(svg: &mut Svg, chart: &Chart, last: usize) {
+    let between = chart.width / (last - 1) as f64;
+    let every = (LABEL / between).ceil() as usize;
+    for k in 1..=last {
+        let [x, top] = chart.at([k as f64, chart.y.range.1]);
+        svg.line([x, top], [x, top + chart.height], "fill:none;stroke:#bbb;stroke-width:0.6");
+        let room = (k - 1) % every == 0 && x + 2.0 * LABEL <= chart.left + chart.width;
+        if room || k == last {
+            let (dx, anchor) = if k == last { (-4.0, Anchor::End) } else { (4.0, Anchor::Start) };
+            svg.text([x + dx, top + 14.0], anchor, 10.0, "", &format!("Point {k}"));
+        }
+    }
+}
+
+/// Left and right edge of an obstacle, pixels.
+fn edges(chart: &Chart, obstacle: &Obstacle) -> [f64; 2] {
+    let at = |t: f64| chart.at([obstacle.segment as f64 + t, 0.0])[0];
+    let (from, to) = (at(obstacle.t.0), at(obstacle.t.1));
+    let missing = (BAND - (to - from)).max(0.0) / 2.0;
+    [from - missing, to + missing]
+}
+
+fn band(svg: &mut Svg, chart: &Chart, obstacle: &Obstacle) {
+    let [from, to] = edges(chart, obstacle);
+    svg.open("class=\"obstacle\"");
+    svg.rect(from, chart.top, to - from, chart.height, &format!("fill:{OBSTACLE};fill-opacity:0.55"));
+    svg.close();
+}
+
+/// Beside the band, on the side with more room, below all curves.
+fn name_obstacle(svg: &mut Svg, chart: &Chart, obstacle: &Obstacle) {
+    let [from, to] = edges(chart, obstacle);
+    let bottom = chart.top + chart.height - 9.0;
+    let right = from + to < 2.0 * chart.left + chart.width;
+    let (x, anchor) = if right { (to + 5.0, Anchor::Start) } else { (from - 5.0, Anchor::End) };
+    svg.text([x, bottom], anchor, 11.0, &format!("fill:{OBSTACLE}"), &failure(obstacle));
+}
+
+fn legend(svg: &mut Svg, curves: &[Curve], obstacle: bool, at: [f64; 2]) {
+    let mut x = at[0];
+    for curve in curves {
+        x = styled_line(svg, [x, at[1]], &curve.style, &curve.name);
+    }
+    if obstacle {
+        swatch(svg, [x, at[1]], OBSTACLE, "obstacle");
+    }
+}
