@@ -63,7 +63,10 @@ fn table_4_path_meets_no_singularity() {
     assert!(check.obstacle.is_none() && check.min_abs_det_a.value > 1.0, "{:?}", check.min_abs_det_a);
     // Figure 11: nothing changes sign.
     let signs = |f: &dyn Fn(&ProfilePoint) -> f64| check.profile.iter().all(|p| f(p) > 0.0);
-    assert!((0..3).all(|j| signs(&|p| p.b[j])) && (signs(&|p| p.det_a) || signs(&|p| -p.det_a)));
+    assert!(
+        (0..3).all(|j| signs(&|p| p.relative_b[j]))
+            && (signs(&|p| p.relative_det_a) || signs(&|p| -p.relative_det_a))
+    );
 }
 
 /// Straight up, leg 1 stretches out before (4, 14): a serial singularity, then out of reach.

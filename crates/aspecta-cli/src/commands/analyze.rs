@@ -28,6 +28,7 @@ pub struct Analyze {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// When to stop, whatever comes first: 30s | 5min | 2e6boxes | depth=9 | res=0.1, separated by commas
+    /// [default: depth 11 for 2 degrees of freedom, 8 for 3; never more than 4e7 boxes]. Drawing --out comes on top
     #[arg(long, value_parser = budget::parse, allow_hyphen_values = true)]
     budget: Option<Budget>,
     /// Number of threads [default: all cores]; the result does not depend on it
@@ -41,6 +42,10 @@ impl Analyze {
         if let Some(directory) = &self.out {
             // Before the long work, not after it.
             fs::create_dir_all(directory).map_err(Failure::in_directory(directory))?;
+            let probe = directory.join(".aspecta-writable");
+            fs::write(&probe, "")
+                .and_then(|()| fs::remove_file(&probe))
+                .map_err(Failure::in_directory(directory))?;
         }
         if let Some(threads) = self.threads {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();

@@ -81,11 +81,12 @@ fn draw(directory: &Path, robot: &Robot, check: &PathCheck, points: usize) -> io
 fn print_profile(out: &mut dyn Write, robot: &Robot, check: &PathCheck) -> Result<(), Failure> {
     let mut csv = csv::Writer::from_writer(out);
     let names = Columns::pose(robot).and(&Columns::joints(robot)).names;
-    let b = (1..=robot.dof()).map(|j| format!("b_{j}{j}"));
+    let b = (1..=robot.dof()).map(|j| format!("relative_b_{j}{j}"));
     let first = ["segment", "t"].map(String::from);
-    csv.write_record(first.into_iter().chain(names).chain(["det_a".into()]).chain(b))?;
+    csv.write_record(first.into_iter().chain(names).chain(["relative_det_a".into()]).chain(b))?;
     for p in &check.profile {
-        let numbers = [&p.t].into_iter().chain(&p.pose).chain(&p.q).chain([&p.det_a]).chain(&p.b);
+        let numbers =
+            [&p.t].into_iter().chain(&p.pose).chain(&p.q).chain([&p.relative_det_a]).chain(&p.relative_b);
         csv.write_record([p.segment.to_string()].into_iter().chain(numbers.map(|x| exact(*x))))?;
     }
     csv.flush()?;

@@ -45,7 +45,17 @@ impl Fk {
         let (q, file) = (self.input.q.as_deref(), self.input.file.as_deref());
         let mut found = Vec::new();
         for query in queries("--q", q, file, &layout, self.deg)? {
-            let DirectSolutions { mut solutions, complete } = robot.direct_certified(&query.values)?;
+            let DirectSolutions { mut solutions, complete } =
+                match (robot.direct_certified(&query.values), query.line) {
+                    (Ok(found), _) => found,
+                    (Err(e), None) => return Err(e.into()),
+                    // One bad row does not cost the others.
+                    (Err(e), Some(line)) => {
+                        note(&format!("line {line}: {e}"));
+                        found.push(Found { query, solutions: Vec::new(), complete: Some(false) });
+                        continue;
+                    }
+                };
             solutions.retain(|s| mode.is_none_or(|m| s.mode == m));
             if solutions.is_empty() {
                 let place = query.line.map_or(String::new(), |line| format!("line {line}: "));
@@ -56,6 +66,6 @@ impl Fk {
             found.push(Found { query, solutions, complete: Some(complete) });
         }
         solutions::print(out, &robot, Unknown::Pose, &found, self.format.format(), self.deg)?;
-        Ok(Answer::from(found.iter().all(|f| !f.solutions.is_empty())))
+        Ok(Answer::from(found.iter().all(|f| !f.solutions.is_empty() && f.complete == Some(true))))
     }
 }

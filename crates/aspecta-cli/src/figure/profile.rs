@@ -93,15 +93,18 @@ struct Curve {
 fn curves(robot: &Robot) -> Vec<Curve> {
     const DASHES: [&str; 3] = ["7 3", "2 2.5", "9 3 2 3"];
     let style = |colour: &str, rest: &str| format!("fill:none;stroke:{colour};{rest};stroke-linejoin:round");
-    let det =
-        Curve { name: "det A".into(), style: style(INK, "stroke-width:2"), value: Box::new(|p| p.det_a) };
+    let det = Curve {
+        name: "det A".into(),
+        style: style(INK, "stroke-width:2"),
+        value: Box::new(|p| p.relative_det_a),
+    };
     let leg = |j: usize| Curve {
         name: format!("B{0}{0}", subscript(j + 1)),
         style: style(
             palette::aspect(j + 1),
             &format!("stroke-width:1.8;stroke-dasharray:{}", DASHES[j % DASHES.len()]),
         ),
-        value: Box::new(move |p| p.b[j]),
+        value: Box::new(move |p| p.relative_b[j]),
     };
     [det].into_iter().chain((0..robot.dof()).map(leg)).collect()
 }

@@ -49,7 +49,10 @@ fn table_4_ends_meet_and_figure_11_is_normalised() {
     let output = aspecta("check-path 3-rrr --mode +++ --csv").arg(&path).output().unwrap();
     let text = String::from_utf8(output.stdout).unwrap();
     let mut lines = text.lines();
-    assert_eq!(lines.next(), Some("segment,t,x,y,phi,q1,q2,q3,det_a,b_11,b_22,b_33"));
+    assert_eq!(
+        lines.next(),
+        Some("segment,t,x,y,phi,q1,q2,q3,relative_det_a,relative_b_11,relative_b_22,relative_b_33")
+    );
     let rows: Vec<Vec<f64>> = lines.map(|l| l.split(',').map(|x| x.parse().unwrap()).collect()).collect();
     for column in 8..12 {
         // Mode +++: B_jj > 0; det A keeps its sign.
@@ -133,7 +136,8 @@ fn figure_11_of_table_4_has_four_curves_and_none_meets_zero() {
         assert!(curve.iter().all(|&y| y > 0.05 * largest), "curve {k} meets zero");
         assert_eq!(curve.len(), profile.len());
         for (y, p) in curve.iter().zip(profile) {
-            let value = if k == 0 { p["det_a"].as_f64().unwrap() } else { numbers(&p["b"])[k - 1] };
+            let value =
+                if k == 0 { p["relative_det_a"].as_f64().unwrap() } else { numbers(&p["relative_b"])[k - 1] };
             assert!((y - value * largest).abs() < 0.03, "curve {k}: {y} px for {value}");
         }
     }

@@ -20,9 +20,10 @@ pub(super) fn parallel_aspects(robot: &Robot, paving: &Paving) -> Vec<EarlierAsp
         .into_par_iter()
         .map(|(name, classes)| EarlierAspects {
             name: name.into(),
-            domains: domains(robot, paving, &|node| node.of_classes(classes), &|node| {
-                mode_in(paving, node, classes)
-            }),
+            domains: domains(robot, paving, &|node| node.of_classes(classes))
+                .iter()
+                .map(|d| d.report(robot, paving, |node| mode_in(paving, node, classes)))
+                .collect(),
             overlap,
         })
         .collect()
@@ -31,16 +32,27 @@ pub(super) fn parallel_aspects(robot: &Robot, paving: &Paving) -> Vec<EarlierAsp
 /// Definition 6: where each combination of signs of the B_jj exists.
 pub(super) fn serial_aspects(robot: &Robot, paving: &Paving) -> Vec<EarlierAspects> {
     let count = paving.modes.len();
+    // Without limits every mode exists at the same poses.
+    let unlimited = robot.legs.iter().all(|leg| leg.limits.is_empty());
+    let different = if unlimited { 1 } else { count };
+    let found: Vec<(Vec<Domain>, f64)> = (0..different)
+        .into_par_iter()
+        .map(|m| {
+            let next = (m + 1) % count;
+            let shared = |node: &Node| intersection(node.of_mode(m), node.of_mode(next));
+            let overlap = if next == m { 0.0 } else { measure(paving, &shared) };
+            (domains(robot, paving, &|node| node.of_mode(m)), overlap)
+        })
+        .collect();
     let entry = |(m, mode): (usize, &WorkingMode)| {
-        let next = (m + 1) % count;
-        let shared = |node: &Node| intersection(node.of_mode(m), node.of_mode(next));
+        let (domains, overlap) = &found[m % different];
         EarlierAspects {
             name: mode.to_string(),
-            domains: domains(robot, paving, &|node| node.of_mode(m), &|_| *mode),
-            overlap: if next == m { 0.0 } else { measure(paving, &shared) },
+            domains: domains.iter().map(|d| d.report(robot, paving, |_| *mode)).collect(),
+            overlap: *overlap,
         }
     };
-    paving.modes.par_iter().enumerate().map(entry).collect()
+    paving.modes.iter().enumerate().map(entry).collect()
 }
 
 fn intersection(a: Mark, b: Mark) -> Mark {
@@ -67,26 +79,31 @@ fn measure(paving: &Paving, sight: &impl Fn(&Node) -> Mark) -> f64 {
     sum
 }
 
-/// The domains of a set: one entry per component of inside and undecided boxes that holds an inside box, largest first.
-fn domains(
-    robot: &Robot,
-    paving: &Paving,
-    sight: &impl Fn(&Node) -> Mark,
-    mode: &impl Fn(&Node) -> WorkingMode,
-) -> Vec<EarlierDomain> {
-    let components = Components::new(robot, paving, sight);
-    let mut by_component = std::collections::BTreeMap::<u32, (f64, u32)>::new();
-    for piece in &components.pieces {
-        let (sum, largest) = by_component.entry(piece.component).or_insert((0.0, piece.largest));
-        *sum += piece.measure;
-        *largest = (*largest).min(piece.largest);
+/// A domain: its certified inner measure and its largest box.
+struct Domain {
+    measure: f64,
+    largest: u32,
+}
+
+impl Domain {
+    fn report(&self, robot: &Robot, paving: &Paving, mode: impl Fn(&Node) -> WorkingMode) -> EarlierDomain {
+        let pose = paving.centre(self.largest);
+        let q = robot.inverse_in(&pose, mode(&paving.nodes[self.largest as usize])).ok().flatten();
+        EarlierDomain { measure: self.measure, sample: Sample { pose, q: q.unwrap_or_default() } }
     }
-    let domain = |(measure, largest): (f64, u32)| {
-        let pose = paving.centre(largest);
-        let q = robot.inverse_in(&pose, mode(&paving.nodes[largest as usize])).ok().flatten();
-        EarlierDomain { measure, sample: Sample { pose, q: q.unwrap_or_default() } }
-    };
-    let mut found: Vec<EarlierDomain> = by_component.into_values().map(domain).collect();
+}
+
+/// The domains of a set: one entry per component of inside and undecided boxes that holds an inside box, largest first.
+fn domains(robot: &Robot, paving: &Paving, sight: &impl Fn(&Node) -> Mark) -> Vec<Domain> {
+    let components = Components::new(robot, paving, sight);
+    let mut by_component = std::collections::BTreeMap::<u32, Domain>::new();
+    for piece in &components.pieces {
+        let start = Domain { measure: 0.0, largest: piece.largest };
+        let domain = by_component.entry(piece.component).or_insert(start);
+        domain.measure += piece.measure;
+        domain.largest = domain.largest.min(piece.largest);
+    }
+    let mut found: Vec<Domain> = by_component.into_values().collect();
     found.sort_by(|a, b| b.measure.total_cmp(&a.measure));
     found
 }

@@ -5,7 +5,7 @@ use crate::kinematics::modal::closures;
 use crate::kinematics::placement::Placement;
 use crate::kinematics::{WorkingMode, for_platform};
 use crate::num::{Interval, Scalar};
-use crate::paving::Paving;
+use crate::paving::{BoxOf, Paving};
 use crate::robot::Robot;
 
 /// The smallest range that holds all the intervals; on a circle of 2π, the complement of the widest gap
@@ -34,14 +34,12 @@ pub(super) fn hull(mut ranges: Vec<Interval>, circular: bool) -> (f64, f64) {
 
 /// Bounds, per pose coordinate, of the given boxes.
 pub(super) fn w_bounds(paving: &Paving, boxes: &[u32]) -> Vec<(f64, f64)> {
+    let corners: Vec<BoxOf> = boxes.iter().map(|&node| paving.bounds(node)).collect();
     let bound = |k: usize| match paving.axes.iter().position(|&axis| axis == k) {
         None => paving.window.ranges[k],
         Some(a) => {
-            let range = |&node: &u32| {
-                let (lo, hi) = paving.bounds(node);
-                Interval::new(lo[a], hi[a])
-            };
-            hull(boxes.iter().map(range).collect(), paving.window.glued[k])
+            let ranges = corners.iter().map(|(lo, hi)| Interval::new(lo[a], hi[a]));
+            hull(ranges.collect(), paving.window.glued[k])
         }
     };
     (0..paving.window.ranges.len()).map(bound).collect()

@@ -132,7 +132,10 @@ impl Robot {
         }
         match v.iter().position(|x| !x.is_finite()) {
             Some(k) => Err(KinematicsError::NotFinite { what, index: k + 1, value: v[k] }),
-            None => Ok(()),
+            None => match v.iter().position(|x| x.abs() > 1e7) {
+                Some(k) => Err(KinematicsError::TooLarge { what, index: k + 1, value: v[k] }),
+                None => Ok(()),
+            },
         }
     }
 }

@@ -81,6 +81,16 @@ pub enum KinematicsError {
         /// The value.
         value: f64,
     },
+    /// Too large for double precision to mean anything.
+    #[error("{what} coordinate {index} is {value}: beyond ±1e7, where doubles no longer resolve a robot")]
+    TooLarge {
+        /// `pose` or `joint`.
+        what: &'static str,
+        /// Index from 1.
+        index: usize,
+        /// The value.
+        value: f64,
+    },
     /// The direct problem of this platform is not implemented.
     #[error(
         "the direct problem of `{0}` platforms is not available yet (it is for plane-point, plane-body and translating-body)"

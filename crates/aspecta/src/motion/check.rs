@@ -71,9 +71,9 @@ pub struct ProfilePoint {
     /// The joint vector.
     pub q: Vec<f64>,
     /// det A over its largest modulus along the path.
-    pub det_a: f64,
+    pub relative_det_a: f64,
     /// B_jj over their largest moduli.
-    pub b: Vec<f64>,
+    pub relative_b: Vec<f64>,
 }
 
 /// Why a path cannot be checked at all.
@@ -233,8 +233,8 @@ fn profile(robot: &Robot, poses: &[Vec<f64>], mode: WorkingMode) -> Vec<ProfileP
             let pose = at(&ends[0], &ends[1], t);
             let Some(q) = robot.inverse_in(&pose, mode).ok().flatten() else { continue };
             let Ok(jacobians) = robot.jacobians(&pose, &q) else { continue };
-            let det_a = jacobians.det_a();
-            points.push(ProfilePoint { segment: k + 1, t, pose, q, det_a, b: jacobians.b });
+            let relative_det_a = jacobians.det_a();
+            points.push(ProfilePoint { segment: k + 1, t, pose, q, relative_det_a, relative_b: jacobians.b });
         }
     }
     normalise(&mut points);
@@ -246,11 +246,11 @@ fn normalise(points: &mut [ProfilePoint]) {
         let most = points.iter().map(|p| f(p).abs()).fold(0.0, f64::max);
         if most > 0.0 { most } else { 1.0 }
     };
-    let det = largest(&|p| p.det_a);
-    let legs = points.first().map_or(0, |p| p.b.len());
-    let b: Vec<f64> = (0..legs).map(|j| largest(&|p| p.b[j])).collect();
+    let det = largest(&|p| p.relative_det_a);
+    let legs = points.first().map_or(0, |p| p.relative_b.len());
+    let b: Vec<f64> = (0..legs).map(|j| largest(&|p| p.relative_b[j])).collect();
     for p in points {
-        p.det_a /= det;
-        p.b.iter_mut().zip(&b).for_each(|(x, most)| *x /= most);
+        p.relative_det_a /= det;
+        p.relative_b.iter_mut().zip(&b).for_each(|(x, most)| *x /= most);
     }
 }

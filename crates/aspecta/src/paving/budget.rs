@@ -7,7 +7,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// How far a paving goes. Whatever is met first ends it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Budget {
-    /// Wall-clock seconds. Results then depend on the machine's speed.
+    /// Wall-clock seconds of an analysis: [`PAVING_SHARE`] of them for the paving, the rest for what is done with it.
+    /// Results then depend on the machine's speed.
     pub seconds: Option<f64>,
     /// Boxes classified. Deterministic.
     pub boxes: Option<u64>,
@@ -22,19 +23,23 @@ pub const MAX_DEPTH: u32 = 20;
 /// Greatest number of boxes a paving holds (28 bytes each, so about 1 GiB); larger budgets are cut to it.
 pub const MAX_BOXES: u64 = 40_000_000;
 
+/// The share of a time budget after which the paving ends; counting its components takes about as long again.
+pub const PAVING_SHARE: f64 = 0.4;
+
 impl Budget {
     /// The depth at which this budget ends in `window`: the one asked for or that of the resolution, whichever is
-    /// met first; 11 in the plane and 8 in space (a few seconds of work) if nothing is asked for at all.
+    /// met first; 11 in the plane and 8 in space (a few seconds of work) if nothing is asked for at all, three levels more if only
+    /// time or boxes are given.
     pub(super) fn depth_in(&self, window: &Window) -> u32 {
         let lengths = window.ranges.iter().zip(&window.angles).filter(|(_, angle)| !**angle);
         let widest = lengths.map(|(r, _)| r.1 - r.0).fold(0.0, f64::max);
         // A robot without lengths has no resolution to reach.
         let resolution = self.resolution.filter(|_| widest > 0.0);
         let finest = resolution.map(|r| (widest / r).log2().ceil().max(1.0) as u32);
-        let usual = if window.axes().len() == 2 { 11 } else { 8 };
+        let (usual, deep) = if window.axes().len() == 2 { (11, 14) } else { (8, 11) };
         let open = self.seconds.is_some() || self.boxes.is_some();
         let asked = self.depth.into_iter().chain(finest).min();
-        asked.unwrap_or(if open { MAX_DEPTH } else { usual }).clamp(1, MAX_DEPTH)
+        asked.unwrap_or(if open { deep } else { usual }).clamp(1, MAX_DEPTH)
     }
 }
 

@@ -6,5 +6,5 @@ mod refine;
 mod touch;
 mod tree;
 
-pub use budget::{Budget, Control, MAX_BOXES, MAX_DEPTH, Progress, Stop};
+pub use budget::{Budget, Control, MAX_BOXES, MAX_DEPTH, PAVING_SHARE, Progress, Stop};
 pub use tree::{BoxOf, ClassSet, Mark, Node, Paving};

@@ -1,6 +1,6 @@
 //! Subdivision, level by level.
 
-use super::budget::{Budget, Control, MAX_BOXES, Progress, Stop};
+use super::budget::{Budget, Control, MAX_BOXES, PAVING_SHARE, Progress, Stop};
 use super::classify::Classifier;
 use super::tree::{ClassSet, Node, Paving};
 use crate::kinematics::WorkingMode;
@@ -55,7 +55,8 @@ fn refine<const D: usize, const N: usize, const M: usize>(
         stop: Stop::Resolution,
     };
     let deadline = budget.seconds.map(|s| (Instant::now(), s));
-    let late = || deadline.is_some_and(|(start, seconds)| start.elapsed().as_secs_f64() > seconds);
+    let late =
+        || deadline.is_some_and(|(start, seconds)| start.elapsed().as_secs_f64() > PAVING_SHARE * seconds);
     let allowed = budget.boxes.unwrap_or(MAX_BOXES).min(MAX_BOXES);
     let depths = budget.depth_in(window);
     for depth in 1..=depths {
