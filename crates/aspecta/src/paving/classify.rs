@@ -129,7 +129,7 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
         placement: &Placement<Slope<Pack, M>, D>,
     ) -> LimitMasks<N> {
         let mut masks = LimitMasks { kept: [[[true; LANES]; 2]; N], broken: [[[false; LANES]; 2]; N] };
-        for (j, leg) in self.robot.legs.iter().enumerate() {
+        for (j, leg) in self.robot.legs.iter().enumerate().filter(|(_, leg)| !leg.limits.is_empty()) {
             let at = LegAt { leg, span: legs[j].span, closure: legs[j].closure, h: h[j] };
             for limit in &leg.limits {
                 for (posture, sh) in [h[j], -h[j]].into_iter().enumerate() {
