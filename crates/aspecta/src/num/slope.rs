@@ -56,7 +56,7 @@ impl Enclosure for Pack {
 /// Runs a kernel on references as one outlined call, compiled for AVX2 where the processor has it.
 ///
 /// Intervals use no fused operations, so the bits do not depend on the instructions. The 3-RRR's paving takes
-/// 0.75 times as long with it (`cargo bench --bench paving`).
+/// 0.75 times as long with it (`docs/performance.md`).
 macro_rules! kernel {
     ($bound:ident, ($($arg:ident: $type:ty),*) -> $out:ty $body:block) => {{
         #[inline(always)]
