@@ -486,14 +486,14 @@ fn paved(robot: &Robot, depth: u32) -> Paving {
 
 /// Range of a box per axis in units of the finest cells.
 fn cells(paving: &Paving, node: u32) -> Vec<(u64, u64)> {
-    let size = 1u64 << (paving.depth() - paving.depth_of(node));
+    let size = 1u64 << (paving.depth - paving.depth_of(node));
     let corner = paving.nodes[node as usize].corner;
     corner[..paving.axes.len()].iter().map(|&c| (u64::from(c) * size, (u64::from(c) + 1) * size)).collect()
 }
 
 /// Whether two closed boxes share a point, by arithmetic on their corners.
 fn share_a_point(paving: &Paving, a: &[(u64, u64)], b: &[(u64, u64)]) -> bool {
-    let whole = 1u64 << paving.depth();
+    let whole = 1u64 << paving.depth;
     let axes = paving.window.axes();
     (0..paving.axes.len()).all(|k| {
         let meet = |shift: i64| {
@@ -562,7 +562,7 @@ fn boxes_tile_the_window() {
     }
     for (name, depth) in [("five-bar", 7), ("3-rpr", 4), ("3-rrr", 4), ("spherical-3-rrr", 4)] {
         let paving = paved(&catalogue::find(name).unwrap(), depth);
-        let volume = |at: u32| 1u64 << (paving.axes.len() as u32 * (paving.depth() - paving.depth_of(at)));
+        let volume = |at: u32| 1u64 << (paving.axes.len() as u32 * (paving.depth - paving.depth_of(at)));
         let whole: f64 = paving
             .window
             .axes()
@@ -656,7 +656,7 @@ fn a_run_cancelled_half_way_is_sound() {
     let robot = catalogue::find("five-bar").unwrap();
     let window = robot.workspace_window().unwrap();
     let paving = Paving::new(&robot, &window, &robot.working_modes(), &to_depth(9), &control);
-    assert_eq!((paving.stop, paving.depth()), (Stop::Cancelled, 6));
+    assert_eq!((paving.stop, paving.depth), (Stop::Cancelled, 6));
     assert_eq!(paving.nodes.len() as u64 - 1, paving.boxes);
     let mut unseen = [0; 4];
     for (i, at) in (0..paving.nodes.len() as u32).enumerate() {

@@ -89,12 +89,8 @@ pub fn analyze(robot: &Robot, options: &Options, control: &Control<'_>) -> Resul
         serial_aspects: serial,
         run: Run {
             boxes: paving.boxes,
-            depth: paving.depth(),
-            resolution: window
-                .ranges
-                .iter()
-                .map(|r| (r.1 - r.0) / f64::from(1u32 << paving.depth()))
-                .collect(),
+            depth: paving.depth,
+            resolution: window.ranges.iter().map(|r| (r.1 - r.0) / f64::from(1u32 << paving.depth)).collect(),
             stop: paving.stop,
             seconds: start.elapsed().as_secs_f64(),
         },
@@ -162,7 +158,8 @@ fn aspect(
         .filter(|&&i| components.piece_of[i].is_some())
         .map(|&i| components.boxes[i])
         .collect();
-    let pose = paving.centre(pieces.iter().map(|p| p.largest).min().unwrap_or(0));
+    let pose =
+        paving.centre(pieces.iter().map(|p| p.largest).reduce(|a, b| paving.larger(a, b)).unwrap_or(0));
     let q = robot.inverse_in(&pose, mode).ok().flatten().unwrap_or_default();
     Aspect {
         id: 0,
@@ -197,7 +194,7 @@ fn mode_report(robot: &Robot, paving: &Paving, m: usize, mode: WorkingMode) -> M
     let (mut best, mut open) = (None::<u32>, false);
     paving.boxes_of(&sight, &mut |at| {
         if sight(&paving.nodes[at as usize]) == Mark::Inside {
-            best = Some(best.map_or(at, |b| b.min(at)));
+            best = Some(best.map_or(at, |b| paving.larger(b, at)));
         } else {
             open = true;
         }

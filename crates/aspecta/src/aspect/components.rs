@@ -102,12 +102,13 @@ impl Components {
             }
             let root = inner.root(i as u32) as usize;
             if piece_at_root[root] == u32::MAX {
-                // Boxes are ascending, so coarse ones come first: the first box of a piece is a largest one.
                 piece_at_root[root] = self.pieces.len() as u32;
                 self.pieces.push(Piece { measure: 0.0, largest: at, component: self.component_of[i] });
             }
             let piece = piece_at_root[root];
-            self.pieces[piece as usize].measure += measure;
+            let piece_so_far = &mut self.pieces[piece as usize];
+            piece_so_far.measure += measure;
+            piece_so_far.largest = paving.larger(piece_so_far.largest, at);
             self.piece_of[i] = Some(piece);
         }
     }

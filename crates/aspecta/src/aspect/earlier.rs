@@ -101,7 +101,7 @@ fn domains(robot: &Robot, paving: &Paving, sight: &impl Fn(&Node) -> Mark) -> Ve
         let start = Domain { measure: 0.0, largest: piece.largest };
         let domain = by_component.entry(piece.component).or_insert(start);
         domain.measure += piece.measure;
-        domain.largest = domain.largest.min(piece.largest);
+        domain.largest = paving.larger(domain.largest, piece.largest);
     }
     let mut found: Vec<Domain> = by_component.into_values().collect();
     found.sort_by(|a, b| b.measure.total_cmp(&a.measure));

@@ -10,10 +10,13 @@
 
 mod analyze;
 mod ascent;
+mod atlas;
 mod components;
 mod earlier;
 mod project;
 mod result;
+mod scale;
+mod summit;
 
 pub use analyze::{AnalysisError, Options, analyze};
 pub use result::{

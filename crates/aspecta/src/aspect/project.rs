@@ -51,7 +51,7 @@ type Cell = ([u32; 3], u32);
 /// The given boxes, the finest replaced by the boxes one level up that hold them: a cover of as good as the same
 /// extent with far fewer members.
 fn cover(paving: &Paving, boxes: &[u32]) -> Vec<Cell> {
-    let finest = paving.depth().saturating_sub(1);
+    let finest = paving.depth.saturating_sub(1);
     let coarse = |&node: &u32| {
         let (corner, depth) = (paving.nodes[node as usize].corner, paving.depth_of(node));
         let up = depth.saturating_sub(finest);

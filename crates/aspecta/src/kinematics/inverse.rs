@@ -30,7 +30,7 @@ fn legs_at<const D: usize, const N: usize>(robot: &Robot, pose: &[f64]) -> Vec<L
         let span = placement.span(leg, &placement.arm(leg));
         let closure = eliminate(&leg.actuator, &span);
         let proof = eliminate(&leg.actuator, &exact.span(leg, &exact.arm(leg)));
-        let at = LegAt { leg, span, closure, h: closure.reach.sqrt() };
+        let at = LegAt { leg, span, closure, crank: None };
         let mut solutions = LegSolutions {
             q: [None; 2],
             within_limits: [false; 2],
@@ -45,7 +45,7 @@ fn legs_at<const D: usize, const N: usize>(robot: &Robot, pose: &[f64]) -> Vec<L
             if leg.actuator.postures() == 1 && s > 0.0 {
                 continue;
             }
-            let sh = s * at.h;
+            let sh = s * closure.reach.sqrt();
             solutions.q[k] = Some(match drive(&leg.actuator, &span, &closure, sh) {
                 Drive::Angle { cos, sin, .. } => sin.atan2(cos),
                 Drive::Length(q) => q,

@@ -13,8 +13,17 @@ pub struct LegAt<'a, T, const D: usize> {
     pub span: [T; D],
     /// The leg equation with q eliminated.
     pub closure: Closure<T, D>,
-    /// h = √H.
-    pub h: T,
+    /// (cos q, sin q), where the leg's own coordinates are used.
+    pub crank: Option<(T, T)>,
+}
+
+impl<T: Scalar, const D: usize> LegAt<'_, T, D> {
+    fn drive(&self, sh: T) -> Drive<T> {
+        match self.crank {
+            Some((cos, sin)) => Drive::Angle { cos, sin, norm: T::constant(Interval::point(1.0)) },
+            None => drive(&self.leg.actuator, &self.span, &self.closure, sh),
+        }
+    }
 }
 
 /// c_k > 0: how far inside `limit` the leg is in posture s, where `sh` = s h. Zero at the limit. The unit differs
@@ -26,14 +35,12 @@ pub fn margin<T: Scalar, const D: usize>(
     placement: &Placement<T, D>,
 ) -> T {
     match limit {
-        Limit::ActuatorAngle { middle, half_cos } => {
-            match drive(&at.leg.actuator, &at.span, &at.closure, sh) {
-                Drive::Angle { cos, sin, norm } => {
-                    cos.scale(middle.0) + sin.scale(middle.1) - norm.scale(*half_cos)
-                }
-                Drive::Length(_) => T::constant(Interval::ENTIRE),
+        Limit::ActuatorAngle { middle, half_cos } => match at.drive(sh) {
+            Drive::Angle { cos, sin, norm } => {
+                cos.scale(middle.0) + sin.scale(middle.1) - norm.scale(*half_cos)
             }
-        }
+            Drive::Length(_) => T::constant(Interval::ENTIRE),
+        },
         Limit::ActuatorLength { min, max } => match at.leg.actuator {
             Actuator::Strut => {
                 let q2 = sum_of_squares(&at.span);
@@ -63,6 +70,19 @@ pub fn margin<T: Scalar, const D: usize>(
     }
 }
 
+/// What [`margin`] is a multiple of: divided by it, the margin is one and the same function of the configuration, whatever
+/// coordinates it was computed in. Positive wherever the leg closes strictly.
+pub fn unit<T: Scalar, const D: usize>(limit: &Limit, at: &LegAt<'_, T, D>, sh: T) -> T {
+    match limit {
+        Limit::ActuatorAngle { .. } => match at.drive(sh) {
+            Drive::Angle { norm, .. } => norm,
+            Drive::Length(_) => T::constant(Interval::ENTIRE),
+        },
+        Limit::BaseCone { .. } | Limit::PlatformCone { .. } => rod_length(at),
+        _ => T::constant(Interval::point(1.0)),
+    }
+}
+
 /// (2LM cos ψ, 2LM) with ψ the angle at B: ‖d‖² = L² + M² + 2LM cos ψ, and 2LM sin ψ = −s h.
 fn bend<T: Scalar, const D: usize>(at: &LegAt<'_, T, D>) -> (T, Interval) {
     match at.leg.actuator {
@@ -83,6 +103,9 @@ fn rod_direction<T: Scalar, const D: usize>(at: &LegAt<'_, T, D>, sh: T) -> [T; 
 fn rod_length<T: Scalar, const D: usize>(at: &LegAt<'_, T, D>) -> T {
     match at.leg.actuator {
         Actuator::Revolute { rod, .. } | Actuator::Prismatic { rod } => at.closure.weight.scale(rod + rod),
-        _ => at.h + at.h,
+        _ => {
+            let q = at.closure.reach.sqrt();
+            q + q
+        }
     }
 }

@@ -1,5 +1,6 @@
 //! Inverse and direct geometric models, Jacobians and singularities (section 2 of the paper).
 
+pub mod chart;
 pub mod direct;
 mod inverse;
 mod jacobian;

@@ -5,11 +5,12 @@
 //! fixed_j + s_j swing_j, so that weighted det A is multi-affine in the signs.
 
 use super::WorkingMode;
+use super::chart::Folded;
 use super::leg::{Closure, eliminate};
 use super::limits::{LegAt, margin};
 use super::placement::{Placement, determinant, minor, out_of_frame, wrench};
 use crate::num::{Scalar, each};
-use crate::robot::Robot;
+use crate::robot::{Leg, Robot};
 
 /// Every leg at one pose (or box of poses), with q eliminated; h not yet chosen.
 pub fn closures<T: Scalar, const D: usize, const N: usize>(
@@ -18,7 +19,7 @@ pub fn closures<T: Scalar, const D: usize, const N: usize>(
 ) -> [LegClosure<T, D>; N] {
     let zero = [T::zero(); D];
     let open = Closure { reach: T::zero(), weight: T::zero(), fixed: zero, swing: zero };
-    let mut legs = [LegClosure { arm: zero, span: zero, closure: open }; N];
+    let mut legs = [LegClosure { arm: zero, span: zero, closure: open, fold: None }; N];
     for (at, leg) in legs.iter_mut().zip(&robot.legs) {
         at.arm = placement.arm(leg);
         at.span = placement.span(leg, &at.arm);
@@ -36,6 +37,37 @@ pub struct LegClosure<T, const D: usize> {
     pub span: [T; D],
     /// The leg equation with q eliminated.
     pub closure: Closure<T, D>,
+    /// The leg's own state, where its own coordinates are used: B then has one sign at a point, and `closure` no part that
+    /// changes sign.
+    pub fold: Option<Folded<T>>,
+}
+
+impl<T: Scalar, const D: usize> LegClosure<T, D> {
+    /// s h = s √H for the postures + and −; where the leg's own coordinates are used, its B both times.
+    pub fn heights(&self) -> [T; 2] {
+        match &self.fold {
+            Some(fold) => [fold.b; 2],
+            None => {
+                let h = self.closure.reach.sqrt();
+                [h, -h]
+            }
+        }
+    }
+
+    /// Whether [`Closure::weight`] varies with the pose.
+    pub fn is_weighted(&self, leg: &Leg) -> bool {
+        self.fold.is_none() && leg.actuator.is_angle()
+    }
+
+    /// The leg as its limits see it.
+    pub fn limited<'a>(&self, leg: &'a Leg) -> LegAt<'a, T, D> {
+        LegAt {
+            leg,
+            span: self.span,
+            closure: self.closure,
+            crank: self.fold.as_ref().map(|f| (f.cos, f.sin)),
+        }
+    }
 }
 
 /// The rows of weighted A for both postures of every leg.
@@ -56,7 +88,7 @@ impl<T: Scalar, const N: usize> ModalRows<T, N> {
             let fixed = out_of_frame(leg, &at.closure.fixed);
             let fixed: [T; N] = wrench(robot.platform, &fixed, &at.arm);
             rows.fixed[j] = each!(|k| fixed[k].tightened());
-            if leg.actuator.postures() == 2 {
+            if leg.actuator.postures() == 2 && at.fold.is_none() {
                 let swing = out_of_frame(leg, &each!(|k| at.closure.swing[k] * h[j]));
                 let swing: [T; N] = wrench(robot.platform, &swing, &at.arm);
                 rows.swing[j] = each!(|k| swing[k].tightened());
@@ -121,7 +153,7 @@ pub fn constraints<T: Scalar, const D: usize, const N: usize>(
     for (j, at) in legs.iter().enumerate() {
         let leg = &robot.legs[j];
         let sh = if mode.sign(j) > 0 { heights[j] } else { -heights[j] };
-        let at = LegAt { leg, span: at.span, closure: at.closure, h: heights[j] };
+        let at = at.limited(leg);
         for (k, limit) in leg.limits.iter().enumerate() {
             if !visit(Constraint::Limit(j, k), margin(limit, &at, sh, placement)) {
                 return;

@@ -30,6 +30,24 @@ impl<T: Scalar, const D: usize> Placement<T, D> {
         }
     }
 
+    /// The placement that puts the end of `leg` at d = C − A = `span` (base frame); `turn` as in [`Placement::new`]. For platforms that
+    /// can be moved anywhere without turning.
+    pub fn with_end(platform: Platform, leg: &Leg, span: &[T; D], turn: impl Fn(usize) -> (T, T)) -> Self {
+        let still = [T::zero(); D];
+        let mut placement = Self::new(platform, &still, turn);
+        let arm = placement.arm(leg);
+        placement.origin = each!(|k| match placement.rotation {
+            None => span[k] + T::constant(leg.anchor[k] - leg.attachment[k]),
+            Some(_) => span[k] + T::constant(leg.anchor[k]) - arm[k],
+        });
+        placement
+    }
+
+    /// Where the platform's own origin is.
+    pub fn origin(&self) -> &[T; D] {
+        &self.origin
+    }
+
     /// The placement of the pose `x`, with sines and cosines computed here.
     pub fn at(platform: Platform, x: &[T]) -> Self {
         Self::new(platform, x, |k| x[k].sin_cos())
@@ -54,7 +72,7 @@ impl<T: Scalar, const D: usize> Placement<T, D> {
             // Constants first: for a platform that does not turn, arm and anchor are both constants.
             match self.rotation {
                 None => self.origin[k] - T::constant(leg.anchor[k] - leg.attachment[k]),
-                Some(_) => self.origin[k] + arm[k] - T::constant(leg.anchor[k]),
+                Some(_) => (self.origin[k] + arm[k] - T::constant(leg.anchor[k])).tightened(),
             }
         });
         into_frame(leg, &d)
@@ -139,6 +157,27 @@ pub fn determinant<T: Scalar, const N: usize>(m: &[[T; N]; N]) -> T {
         }
         _ => expand(m),
     }
+}
+
+/// The cofactors: entry (j, i) is the derivative of the determinant with respect to m[j][i].
+pub fn cofactors<T: Scalar, const N: usize>(m: &[[T; N]; N]) -> [[T; N]; N] {
+    let mut all = [[T::zero(); N]; N];
+    for j in 0..N {
+        for i in 0..N {
+            all[j][i] = match N {
+                2 if i == j => m[1 - j][1 - i],
+                2 => -m[1 - j][1 - i],
+                3 => minor(&m[(j + 1) % N], &m[(j + 2) % N], (i + 1) % N, (i + 2) % N),
+                _ => {
+                    let mut replaced = *m;
+                    replaced[j] = [T::zero(); N];
+                    replaced[j][i] = T::constant(crate::num::Interval::point(1.0));
+                    expand(&replaced)
+                }
+            };
+        }
+    }
+    all
 }
 
 /// aᵢ bⱼ − aⱼ bᵢ.

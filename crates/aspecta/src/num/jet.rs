@@ -49,6 +49,9 @@ impl<T: Scalar, const N: usize> Scalar for Jet<T, N> {
         let (s, c) = self.value.sin_cos();
         (self.chain(s, c), self.chain(c, -s))
     }
+    fn tightened(self) -> Self {
+        Self { value: self.value.tightened(), gradient: each!(|k| self.gradient[k].tightened()) }
+    }
     fn scale(self, c: Interval) -> Self {
         Self { value: self.value.scale(c), gradient: each!(|k| self.gradient[k].scale(c)) }
     }

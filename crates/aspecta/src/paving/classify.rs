@@ -1,19 +1,23 @@
 //! What intervals prove of eight boxes at once, in every working mode.
 
-use super::tree::{ClassSet, Node};
+use super::tree::{ClassSet, Node, Paving};
 use crate::kinematics::WorkingMode;
-use crate::kinematics::limits::{LegAt, margin};
-use crate::kinematics::modal::{LegClosure, ModalRows, closures};
+use crate::kinematics::chart::{Chart, Fold};
+use crate::kinematics::limits::margin;
+use crate::kinematics::modal::{LegClosure, ModalRows};
 use crate::kinematics::placement::Placement;
 use crate::num::{Interval, LANES, Mask, Pack, Scalar, Slope, each};
 use crate::robot::{Robot, Window};
+use arrayvec::ArrayVec;
 
-/// One coordinate of the boxes of one level, for every index along it: computed once a level, so that no sine is
-/// evaluated in the inner loop.
+/// One coordinate of the boxes of one level, for every index along it: computed once a level where the level is well filled,
+/// so that no sine is evaluated in the inner loop.
 #[derive(Clone, Copy)]
 struct Slab {
     range: Interval,
     middle: Interval,
+    /// An upper bound of the distance from the middle to either end.
+    radius: f64,
     /// (sin, cos) over the range and at the middle; unused for lengths.
     turn: (Interval, Interval),
     turn_middle: (Interval, Interval),
@@ -24,7 +28,7 @@ impl Slab {
         let middle = Interval::point(range.mid());
         let zero = (Interval::point(0.0), Interval::point(0.0));
         let (turn, turn_middle) = if angle { (range.sin_cos(), middle.sin_cos()) } else { (zero, zero) };
-        Self { range, middle, turn, turn_middle }
+        Self { range, middle, radius: (range - middle).magnitude(), turn, turn_middle }
     }
 }
 
@@ -33,63 +37,92 @@ impl Slab {
 pub(super) struct Classifier<'a, const D: usize, const N: usize, const M: usize> {
     robot: &'a Robot,
     modes: &'a [WorkingMode],
-    /// Slabs of the coordinates that vary, by index, and of the others, alone.
+    chart: &'a Chart,
+    /// The charts that cover part of this one.
+    folds: &'a [Fold],
+    window: &'a Window,
+    depth: u32,
+    /// Slabs by coordinate and index; a coordinate that does not vary has one, a level that is nearly empty has none.
     slabs: [Vec<Slab>; N],
     /// The coordinate each axis of the paving stands for.
     axes: [usize; M],
-    /// Upper bounds of the distance from a box's middle to its ends, per axis.
-    radius: [f64; M],
 }
 
 impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M> {
-    pub(super) fn new(robot: &'a Robot, modes: &'a [WorkingMode], window: &Window, depth: u32) -> Self {
+    /// For `boxes` boxes at `depth`.
+    pub(super) fn new(
+        robot: &'a Robot,
+        paving: &'a Paving,
+        folds: &'a [Fold],
+        depth: u32,
+        boxes: usize,
+    ) -> Self {
         let mut axes = [0; M];
-        axes.copy_from_slice(&window.axes());
-        let slabs: [Vec<Slab>; N] = std::array::from_fn(|k| {
-            let count = if axes.contains(&k) { 1 << depth } else { 1 };
-            let line = |i| if count == 1 { window.ranges[k].0 } else { window.grid_line(k, i, depth) };
-            (0..count).map(|i| Slab::new(Interval::new(line(i), line(i + 1)), window.angles[k])).collect()
-        });
-        let radius =
-            axes.map(|k| slabs[k].iter().map(|s| (s.range - s.middle).magnitude()).fold(0.0, f64::max));
-        Self { robot, modes, slabs, axes, radius }
+        axes.copy_from_slice(&paving.axes);
+        let (modes, chart, window) = (&paving.modes, &paving.chart, &paving.window);
+        let slabs = std::array::from_fn(|_| Vec::new());
+        let mut classifier = Self { robot, modes, chart, folds, window, depth, slabs, axes };
+        if boxes << 3 > 1 << depth {
+            classifier.slabs = std::array::from_fn(|k| {
+                let count = if axes.contains(&k) { 1 << depth } else { 1 };
+                (0..count).map(|i| classifier.new_slab(k, i)).collect()
+            });
+        }
+        classifier
     }
 
-    fn slab(&self, k: usize, corner: &[u32; 3]) -> &Slab {
-        match self.axes.iter().position(|&axis| axis == k) {
-            Some(a) => &self.slabs[k][corner[a] as usize],
-            None => &self.slabs[k][0],
+    fn new_slab(&self, k: usize, i: u32) -> Slab {
+        let range = if self.axes.contains(&k) {
+            Interval::new(
+                self.window.grid_line(k, i, self.depth),
+                self.window.grid_line(k, i + 1, self.depth),
+            )
+        } else {
+            Interval::point(self.window.ranges[k].0)
+        };
+        Slab::new(range, self.window.angles[k])
+    }
+
+    fn slab(&self, k: usize, corner: &[u32; 3]) -> Slab {
+        let i = self.axes.iter().position(|&axis| axis == k).map_or(0, |a| corner[a]);
+        match self.slabs[k].get(i as usize) {
+            Some(slab) => *slab,
+            None => self.new_slab(k, i),
         }
     }
 
     /// Classifies eight boxes given by their corners; each inherits what its parent proved and has
     /// `inside`, `undecided` and `closed` set.
     pub(super) fn classify(&self, boxes: &mut [Node; LANES]) {
-        let slabs: [[&Slab; LANES]; N] =
+        let slabs: [[Slab; LANES]; N] =
             std::array::from_fn(|k| std::array::from_fn(|l| self.slab(k, &boxes[l].corner)));
-        let pack = |k: usize, f: fn(&Slab) -> Interval| Pack::from_fn(|l| f(slabs[k][l]));
+        let pack = |k: usize, f: fn(&Slab) -> Interval| Pack::from_fn(|l| f(&slabs[k][l]));
         let function = |k: usize, range: Pack, centre: Pack, quotient: Option<Pack>| {
             let mut f = Slope::<Pack, M> { range, centre, slope: [Pack::zero(); M] };
             if let Some(a) = self.axes.iter().position(|&axis| axis == k) {
-                let radius = Pack::constant(Interval::point(self.radius[a]));
+                let radius = pack(k, |s| Interval::point(s.radius));
                 f.slope[a] = quotient.map_or(radius, |q| q * radius);
             }
             f
         };
-        let x: [_; N] = each!(|k| function(k, pack(k, |s| s.range), pack(k, |s| s.middle), None));
-        let placement = Placement::<Slope<Pack, M>, D>::new(self.robot.platform, &x, |k| {
+        let y: [_; N] = each!(|k| function(k, pack(k, |s| s.range), pack(k, |s| s.middle), None));
+        let (placement, legs) = self.chart.at::<Slope<Pack, M>, D, N>(self.robot, &y, |k| {
             let (sin, cos) = (pack(k, |s| s.turn.0), pack(k, |s| s.turn.1));
             let (sin_c, cos_c) = (pack(k, |s| s.turn_middle.0), pack(k, |s| s.turn_middle.1));
             (function(k, sin, sin_c, Some(cos)), function(k, cos, cos_c, Some(-sin)))
         });
-        self.decide(boxes, &placement);
+        self.decide(boxes, &placement, &legs);
     }
 
-    fn decide(&self, boxes: &mut [Node; LANES], placement: &Placement<Slope<Pack, M>, D>) {
-        let legs = closures::<_, D, N>(self.robot, placement);
+    fn decide(
+        &self,
+        boxes: &mut [Node; LANES],
+        placement: &Placement<Slope<Pack, M>, D>,
+        legs: &[LegClosure<Slope<Pack, M>, D>; N],
+    ) {
         let mut closes = [true; LANES];
         let mut out = [false; LANES];
-        for leg in &legs {
+        for leg in legs.iter().filter(|leg| leg.fold.is_none()) {
             let reach = leg.closure.reach.tightened().range;
             let (positive, negative) = (reach.positive(), reach.negative());
             for l in 0..LANES {
@@ -108,9 +141,16 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
         if wanted == 0 {
             return;
         }
-        let h: [_; N] = each!(|j| legs[j].closure.reach.sqrt());
-        let limits = self.limits(&legs, &h, placement);
-        let rows = ModalRows::new(self.robot, &legs, &h);
+        for fold in self.folds {
+            let covers: ArrayVec<Mask, 4> =
+                fold.cover(&legs[fold.leg]).into_iter().map(|m| m.tightened().range.positive()).collect();
+            for (l, node) in boxes.iter_mut().enumerate() {
+                node.covered |= covers.iter().all(|positive| positive[l]);
+            }
+        }
+        let heights: [[_; 2]; N] = std::array::from_fn(|j| legs[j].heights());
+        let limits = self.limits(legs, &heights, placement);
+        let rows = ModalRows::new(self.robot, legs, &each!(|j| heights[j][0]));
         rows.dets(self.modes, wanted, |m, det| {
             let det = det.tightened().range;
             let (positive, negative) = (det.positive(), det.negative());
@@ -121,24 +161,24 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
         });
     }
 
-    /// Whether the limits of each leg and posture are kept or broken.
+    /// Whether the limits of each leg and posture are kept or broken. Where a leg's own coordinates are used, being in the
+    /// posture is one of them.
     fn limits(
         &self,
         legs: &[LegClosure<Slope<Pack, M>, D>; N],
-        h: &[Slope<Pack, M>; N],
+        heights: &[[Slope<Pack, M>; 2]; N],
         placement: &Placement<Slope<Pack, M>, D>,
     ) -> LimitMasks<N> {
         let mut masks = LimitMasks { kept: [[[true; LANES]; 2]; N], broken: [[[false; LANES]; 2]; N] };
-        for (j, leg) in self.robot.legs.iter().enumerate().filter(|(_, leg)| !leg.limits.is_empty()) {
-            let at = LegAt { leg, span: legs[j].span, closure: legs[j].closure, h: h[j] };
+        for (j, leg) in self.robot.legs.iter().enumerate() {
+            if let Some(fold) = &legs[j].fold {
+                masks.add(j, 0, fold.b);
+                masks.add(j, 1, -fold.b);
+            }
+            let at = legs[j].limited(leg);
             for limit in &leg.limits {
-                for (posture, sh) in [h[j], -h[j]].into_iter().enumerate() {
-                    let range = margin(limit, &at, sh, placement).tightened().range;
-                    let (positive, negative) = (range.positive(), range.negative());
-                    for l in 0..LANES {
-                        masks.kept[j][posture][l] &= positive[l];
-                        masks.broken[j][posture][l] |= negative[l];
-                    }
+                for posture in 0..2 {
+                    masks.add(j, posture, margin(limit, &at, heights[j][posture], placement));
                 }
             }
         }
@@ -152,6 +192,15 @@ struct LimitMasks<const N: usize> {
 }
 
 impl<const N: usize> LimitMasks<N> {
+    fn add<const M: usize>(&mut self, j: usize, posture: usize, margin: Slope<Pack, M>) {
+        let range = margin.tightened().range;
+        let (positive, negative) = (range.positive(), range.negative());
+        for l in 0..LANES {
+            self.kept[j][posture][l] &= positive[l];
+            self.broken[j][posture][l] |= negative[l];
+        }
+    }
+
     /// (all kept, some broken) in `mode`, for one lane.
     fn of(&self, mode: WorkingMode, lane: usize) -> (bool, bool) {
         let posture = |j: usize| usize::from(mode.sign(j) < 0);

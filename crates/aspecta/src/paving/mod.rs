@@ -8,3 +8,5 @@ mod tree;
 
 pub use budget::{Budget, Control, MAX_BOXES, MAX_DEPTH, PAVING_SHARE, Progress, Stop};
 pub use tree::{BoxOf, ClassSet, Mark, Node, Paving};
+
+pub(crate) use refine::for_paving;

@@ -4,6 +4,7 @@ use super::budget::{Budget, Control, MAX_BOXES, PAVING_SHARE, Progress, Stop};
 use super::classify::Classifier;
 use super::tree::{ClassSet, Node, Paving};
 use crate::kinematics::WorkingMode;
+use crate::kinematics::chart::{Chart, Fold};
 use crate::num::LANES;
 use crate::robot::{Robot, Window};
 use rayon::prelude::*;
@@ -12,13 +13,32 @@ use std::time::Instant;
 /// Parents one task subdivides.
 const CHUNK: usize = 256;
 
+/// Runs a function generic over (D, N, M) — the dimension of space, the degrees of freedom, the coordinates that vary.
+macro_rules! for_paving {
+    ($robot:expr, $axes:expr, $f:ident ( $($arg:expr),* $(,)? )) => {
+        match ($robot.platform.space(), $robot.dof(), $axes) {
+            (2, 2, 1) => $f::<2, 2, 1>($($arg),*),
+            (2, 2, 2) => $f::<2, 2, 2>($($arg),*),
+            (2, 3, 1) => $f::<2, 3, 1>($($arg),*),
+            (2, 3, 2) => $f::<2, 3, 2>($($arg),*),
+            (2, 3, 3) => $f::<2, 3, 3>($($arg),*),
+            (3, 3, 1) => $f::<3, 3, 1>($($arg),*),
+            (3, 3, 2) => $f::<3, 3, 2>($($arg),*),
+            (3, 3, 3) => $f::<3, 3, 3>($($arg),*),
+            (_, n, m) => panic!("a paving of {m} axes of a robot with {n} degrees of freedom"),
+        }
+    };
+}
+pub(crate) use for_paving;
+
 impl Paving {
-    /// Paves `window` for up to 8 working modes of a robot, 2 or 3 of whose coordinates vary.
+    /// Paves `window`, in pose coordinates, for up to 8 working modes of a robot, up to 3 of whose coordinates vary: every box
+    /// in which something is undecided is subdivided, to the depth of the budget.
     ///
     /// Deterministic, whatever the number of threads, unless a time budget or a cancellation ends it.
     ///
     /// # Panics
-    /// If there are more than 8 modes, or the window does not have 2 or 3 axes.
+    /// If there are more than 8 modes, or the window does not have 1 to 3 axes, or the robot more than 3 degrees of freedom.
     pub fn new(
         robot: &Robot,
         window: &Window,
@@ -26,80 +46,107 @@ impl Paving {
         budget: &Budget,
         control: &Control<'_>,
     ) -> Self {
-        assert!(modes.len() <= 8, "a pass takes up to 8 working modes");
-        let pave = match (robot.platform.space(), robot.dof(), window.axes().len()) {
-            (2, 2, 2) => refine::<2, 2, 2>,
-            (2, 3, 3) => refine::<2, 3, 3>,
-            (3, 3, 3) => refine::<3, 3, 3>,
-            (_, n, m) => panic!("a paving of {m} axes of a robot with {n} degrees of freedom"),
+        let mut paving = Self::blank(Chart::Pose, window.clone(), modes);
+        let deadline = budget.seconds.map(|s| (Instant::now(), s));
+        let late = || {
+            deadline.is_some_and(|(start, seconds)| start.elapsed().as_secs_f64() > PAVING_SHARE * seconds)
         };
-        pave(robot, window, modes, budget, control)
+        let allowed = budget.boxes.unwrap_or(MAX_BOXES).min(MAX_BOXES);
+        let depths = budget.depth_in(window);
+        let mut level = 0..1;
+        for depth in 1..=depths {
+            let mut parents: Vec<u32> = level.filter(|&i| paving.nodes[i as usize].undecided != 0).collect();
+            let affordable = ((allowed - paving.boxes) >> paving.axes.len()) as usize;
+            let enough = parents.len() <= affordable;
+            parents.truncate(affordable);
+            if parents.is_empty() && enough {
+                break;
+            }
+            let total = u64::from(depths);
+            (control.progress)(Progress { stage: "paving", done: u64::from(depth) - 1, total });
+            let first = paving.nodes.len() as u32;
+            let all = paving.split(robot, &[], &parents, &|| control.is_cancelled() || late());
+            level = first..paving.nodes.len() as u32;
+            if !all || !enough {
+                paving.stop = match (all, control.is_cancelled()) {
+                    (true, _) => Stop::Boxes,
+                    (false, true) => Stop::Cancelled,
+                    (false, false) => Stop::Time,
+                };
+                break;
+            }
+        }
+        paving
+    }
+
+    /// A paving of one box in which nothing is known.
+    pub fn blank(chart: Chart, window: Window, modes: &[WorkingMode]) -> Self {
+        assert!(modes.len() <= 8, "a pass takes up to 8 working modes");
+        let all = ((1u32 << (2 * modes.len())) - 1) as ClassSet;
+        Self {
+            axes: window.axes(),
+            modes: modes.to_vec(),
+            nodes: vec![Node { undecided: all, ..Node::default() }],
+            depth: 0,
+            boxes: 0,
+            stop: Stop::Resolution,
+            chart,
+            window,
+        }
+    }
+
+    /// Subdivides leaves, given in the order of their indices, and classifies their children; `folds` are the charts
+    /// that cover part of this one. False if `stop` ended it before all were done.
+    pub fn split(
+        &mut self,
+        robot: &Robot,
+        folds: &[Fold],
+        leaves: &[u32],
+        stop: &(impl Fn() -> bool + Sync),
+    ) -> bool {
+        let mut by_depth: Vec<Vec<u32>> = Vec::new();
+        for &leaf in leaves {
+            let depth = self.depth_of(leaf) as usize;
+            if by_depth.len() <= depth {
+                by_depth.resize(depth + 1, Vec::new());
+            }
+            by_depth[depth].push(leaf);
+        }
+        let mut all = true;
+        for (depth, parents) in by_depth.iter().enumerate().filter(|(_, parents)| !parents.is_empty()) {
+            let children = (depth as u32 + 1, parents.as_slice());
+            all &= for_paving!(robot, self.axes.len(), split_level(self, robot, folds, children, stop));
+        }
+        all
     }
 }
 
-fn refine<const D: usize, const N: usize, const M: usize>(
+fn split_level<const D: usize, const N: usize, const M: usize>(
+    paving: &mut Paving,
     robot: &Robot,
-    window: &Window,
-    modes: &[WorkingMode],
-    budget: &Budget,
-    control: &Control<'_>,
-) -> Paving {
-    let all = ((1u32 << (2 * modes.len())) - 1) as ClassSet;
-    let mut paving = Paving {
-        window: window.clone(),
-        axes: window.axes(),
-        modes: modes.to_vec(),
-        nodes: vec![Node { undecided: all, ..Node::default() }],
-        levels: vec![0, 1],
-        boxes: 0,
-        stop: Stop::Resolution,
-    };
-    let deadline = budget.seconds.map(|s| (Instant::now(), s));
-    let late =
-        || deadline.is_some_and(|(start, seconds)| start.elapsed().as_secs_f64() > PAVING_SHARE * seconds);
-    let allowed = budget.boxes.unwrap_or(MAX_BOXES).min(MAX_BOXES);
-    let depths = budget.depth_in(window);
-    for depth in 1..=depths {
-        let level = paving.levels[depth as usize - 1]..paving.levels[depth as usize];
-        let mut parents: Vec<u32> =
-            level.filter(|&i| paving.nodes[i].undecided != 0).map(|i| i as u32).collect();
-        let affordable = ((allowed - paving.boxes) >> M) as usize;
-        if parents.len() > affordable {
-            parents.truncate(affordable);
-            paving.stop = Stop::Boxes;
-        }
-        if parents.is_empty() {
-            break;
-        }
-        let classifier = Classifier::<D, N, M>::new(robot, modes, window, depth);
-        let total = u64::from(depths);
-        (control.progress)(Progress { stage: "paving", done: u64::from(depth) - 1, total });
-        let subdivide = |chunk: &[u32]| {
-            if control.is_cancelled() || late() {
-                return None;
-            }
-            Some(subdivide::<D, N, M>(&paving.nodes, chunk, &classifier))
+    folds: &[Fold],
+    (depth, parents): (u32, &[u32]),
+    stop: &(impl Fn() -> bool + Sync),
+) -> bool {
+    let classifier = Classifier::<D, N, M>::new(robot, paving, folds, depth, parents.len() << M);
+    let families: Vec<Option<Vec<Node>>> = parents
+        .par_chunks(CHUNK)
+        .map(|chunk| (!stop()).then(|| subdivide::<D, N, M>(&paving.nodes, chunk, &classifier)))
+        .collect();
+    let mut all = true;
+    for (chunk, children) in parents.chunks(CHUNK).zip(families) {
+        let Some(children) = children else {
+            all = false;
+            continue;
         };
-        let families: Vec<Option<Vec<Node>>> = parents.par_chunks(CHUNK).map(subdivide).collect();
-        for (chunk, children) in parents.chunks(CHUNK).zip(families) {
-            let Some(children) = children else {
-                paving.stop = if control.is_cancelled() { Stop::Cancelled } else { Stop::Time };
-                continue;
-            };
-            paving.boxes += children.len() as u64;
-            for (k, &parent) in chunk.iter().enumerate() {
-                paving.nodes[parent as usize].first_child = (paving.nodes.len() + (k << M)) as u32;
-            }
-            paving.nodes.extend(children);
+        paving.depth = paving.depth.max(depth);
+        paving.boxes += children.len() as u64;
+        for (k, &parent) in chunk.iter().enumerate() {
+            paving.nodes[parent as usize].first_child = (paving.nodes.len() + (k << M)) as u32;
         }
-        if paving.levels.last() != Some(&paving.nodes.len()) {
-            paving.levels.push(paving.nodes.len());
-        }
-        if paving.stop != Stop::Resolution {
-            break;
-        }
+        paving.nodes.extend(children);
     }
-    paving
+    all
 }
 
 /// The 2^M children of each parent, classified, in order.
@@ -113,7 +160,7 @@ fn subdivide<const D: usize, const N: usize, const M: usize>(
         let parent = &nodes[p as usize];
         for child in 0..1u32 << M {
             let corner = std::array::from_fn(|a| 2 * parent.corner[a] + (child >> a & 1) * u32::from(a < M));
-            children.push(Node { corner, first_child: 0, ..*parent });
+            children.push(Node { corner, first_child: 0, depth: parent.depth + 1, ..*parent });
         }
     }
     for eight in children.chunks_mut(LANES) {

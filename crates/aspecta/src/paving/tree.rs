@@ -1,6 +1,7 @@
 //! The tree of boxes.
 
 use crate::kinematics::WorkingMode;
+use crate::kinematics::chart::Chart;
 use crate::robot::Window;
 
 /// A set of classes, one bit each: bit 2m for mode m and det A > 0, bit 2m + 1 for mode m and det A < 0.
@@ -20,8 +21,14 @@ pub struct Node {
     pub inside: ClassSet,
     /// Classes that are undecided.
     pub undecided: ClassSet,
+    /// Classes that have no summit here: no aspect of the class is highest in this box, proved (`docs/theory.md`, 5).
+    pub summitless: ClassSet,
     /// Modes (one bit each) that exist all over the box: every H_j > 0 and every limit kept, proved.
     pub closed: u8,
+    /// Subdivisions of the window that lead to this box.
+    pub depth: u8,
+    /// Whether the chart of a fold covers all configurations of the box.
+    pub covered: bool,
 }
 
 /// What a node is to a set of poses that is being looked at.
@@ -66,16 +73,18 @@ pub type BoxOf = ([f64; 3], [f64; 3]);
 /// coordinates that vary.
 #[derive(Clone, Debug)]
 pub struct Paving {
-    /// The box that was paved.
+    /// What the coordinates are.
+    pub chart: Chart,
+    /// The box of coordinates that was paved.
     pub window: Window,
     /// The M coordinates that vary.
     pub axes: Vec<usize>,
     /// The modes, in the order of the class bits.
     pub modes: Vec<WorkingMode>,
-    /// All nodes, level by level, within a level in Morton order. Node 0 is the window.
+    /// All nodes, children after their parents. Node 0 is the window.
     pub nodes: Vec<Node>,
-    /// Index of the first node of each level, and the number of nodes at the end.
-    pub levels: Vec<usize>,
+    /// Depth of the finest nodes.
+    pub depth: u32,
     /// Boxes classified.
     pub boxes: u64,
     /// Why the refinement ended.
@@ -85,12 +94,12 @@ pub struct Paving {
 impl Paving {
     /// Depth of the node with this index.
     pub fn depth_of(&self, node: u32) -> u32 {
-        (self.levels.partition_point(|&first| first <= node as usize) - 1) as u32
+        self.nodes[node as usize].depth.into()
     }
 
-    /// Depth of the finest nodes.
-    pub fn depth(&self) -> u32 {
-        self.levels.len() as u32 - 2
+    /// The larger of two boxes, the first of two equal ones.
+    pub fn larger(&self, a: u32, b: u32) -> u32 {
+        std::cmp::min((self.depth_of(a), a), (self.depth_of(b), b)).1
     }
 
     /// Area or volume of a box of depth `depth`.

@@ -14,6 +14,8 @@ pub struct Window {
     pub glued: Vec<bool>,
     /// Which coordinates are angles (rad).
     pub angles: Vec<bool>,
+    /// Which ends of each range the user's window cuts: the workspace may go on beyond them.
+    pub cut: Vec<(bool, bool)>,
 }
 
 /// A coordinate that nothing bounds.
@@ -40,7 +42,7 @@ impl Robot {
     /// [`Unbounded`] if some coordinate has no bound.
     pub fn workspace_window(&self) -> Result<Window, Unbounded> {
         let coordinates = self.platform.coordinates();
-        let mut window = Window { ranges: Vec::new(), glued: Vec::new(), angles: Vec::new() };
+        let mut window = Window { ranges: vec![], glued: vec![], angles: vec![], cut: vec![] };
         for (k, c) in coordinates.iter().enumerate() {
             let natural = if c.angle { angle_range(c.periodic) } else { self.length_reach(k) };
             // A range of a full turn is no limit.
@@ -56,6 +58,8 @@ impl Robot {
             }
             window.ranges.push(range);
             window.glued.push(c.periodic && asked.is_none());
+            let cuts = |inside: bool| asked.is_some() && (c.periodic || inside);
+            window.cut.push((cuts(range.0 > natural.0), cuts(range.1 < natural.1)));
             window.angles.push(c.angle);
         }
         Ok(window)

@@ -243,7 +243,9 @@ fn within_limits<const D: usize>(robot: &Robot, pose: &[f64], mode: WorkingMode)
     robot.legs.iter().zip(mode.signs()).all(|(leg, sign)| {
         let span = placement.span(leg, &placement.arm(leg));
         let closure = eliminate(&leg.actuator, &span);
-        let at = LegAt { leg, span, closure, h: closure.reach.max(0.0).sqrt() };
-        leg.limits.iter().all(|limit| margin(limit, &at, f64::from(sign) * at.h, &placement) > 0.0)
+        let at = LegAt { leg, span, closure, crank: None };
+        leg.limits.iter().all(|limit| {
+            margin(limit, &at, f64::from(sign) * closure.reach.max(0.0).sqrt(), &placement) > 0.0
+        })
     })
 }
