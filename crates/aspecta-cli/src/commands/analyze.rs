@@ -58,7 +58,7 @@ impl Analyze {
             bar.set_position(p.done);
             bar.set_message(p.stage);
         };
-        let options = Options { budget: self.budget.unwrap_or_default() };
+        let options = Options { budget: self.budget.unwrap_or_default(), ..Options::default() };
         let analysis = analyze(&robot, &options, &Control { cancelled: &CANCELLED, progress: &show })?;
         bar.finish_and_clear();
         self.print(out, &analysis)?;

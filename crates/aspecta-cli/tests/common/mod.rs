@@ -28,5 +28,5 @@ pub fn three_rrr() -> Robot {
 pub fn analysis(robot: &Robot, depth: u32) -> Analysis {
     let budget = Budget { depth: Some(depth), ..Budget::default() };
     let control = Control { cancelled: &AtomicBool::new(false), progress: &|_| {} };
-    analyze(robot, &Options { budget }, &control).unwrap()
+    analyze(robot, &Options { budget, ..Options::default() }, &control).unwrap()
 }

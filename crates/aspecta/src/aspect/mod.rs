@@ -12,10 +12,12 @@ mod analyze;
 mod ascent;
 mod components;
 mod earlier;
+mod measure;
 mod project;
 mod result;
 
 pub use analyze::{AnalysisError, Options, analyze};
+pub use measure::{Held, Measure, Unit};
 pub use result::{
     Analysis, Aspect, AspectClass, Cell, Count, DetSign, EarlierAspects, EarlierDomain, FORMAT_VERSION,
     LegReport, ModeReport, Place, Reachable, Run, Sample,

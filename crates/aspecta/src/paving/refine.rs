@@ -13,12 +13,13 @@ use std::time::Instant;
 const CHUNK: usize = 256;
 
 impl Paving {
-    /// Paves `window` for up to 8 working modes of a robot, 2 or 3 of whose coordinates vary.
+    /// Paves `window` for up to 8 working modes of a robot, 1 to 3 of whose coordinates vary; the others are held
+    /// (the window is a slice, [`Robot::slice`]).
     ///
     /// Deterministic, whatever the number of threads, unless a time budget or a cancellation ends it.
     ///
     /// # Panics
-    /// If there are more than 8 modes, or the window does not have 2 or 3 axes.
+    /// If there are more than 8 modes, or the window does not have 1 to 3 axes, or the robot has 6 degrees of freedom.
     pub fn new(
         robot: &Robot,
         window: &Window,
@@ -28,8 +29,13 @@ impl Paving {
     ) -> Self {
         assert!(modes.len() <= 8, "a pass takes up to 8 working modes");
         let pave = match (robot.platform.space(), robot.dof(), window.axes().len()) {
+            (2, 2, 1) => refine::<2, 2, 1>,
             (2, 2, 2) => refine::<2, 2, 2>,
+            (2, 3, 1) => refine::<2, 3, 1>,
+            (2, 3, 2) => refine::<2, 3, 2>,
             (2, 3, 3) => refine::<2, 3, 3>,
+            (3, 3, 1) => refine::<3, 3, 1>,
+            (3, 3, 2) => refine::<3, 3, 2>,
             (3, 3, 3) => refine::<3, 3, 3>,
             (_, n, m) => panic!("a paving of {m} axes of a robot with {n} degrees of freedom"),
         };
