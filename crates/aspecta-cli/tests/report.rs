@@ -5,7 +5,7 @@
 mod common;
 
 use aspecta::aspect::Analysis;
-use common::{analysis, five_bar, three_rrr};
+use common::{analysis, five_bar, slice, three_rrr};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -77,11 +77,53 @@ fn the_three_rrr() {
     assert_eq!(volume["numbers"].as_array().unwrap().len(), 8);
 }
 
+const FLAT: [&str; 7] = ["robot", "modes", "counts", "maps", "earlier", "certified", "run"];
+
+/// A plane of poses is drawn as a planar workspace, in W alone; axes have their names and units.
+#[test]
+fn slices_of_the_three_rrr() {
+    for (name, held, title, labels) in [
+        ("3-rrr-phi", (2, 0.0), "slice φ = 0 rad", ["x [unit]", "y [unit]"]),
+        ("3-rrr-x", (0, -5.0), "slice x = −5 unit", ["y [unit]", "φ [rad]"]),
+    ] {
+        let analysis = slice(&three_rrr(), 8, &[held]);
+        let (dir, _keep) = directory(name);
+        let page = checked(&analysis, &dir, &FLAT, 4_000_000);
+        assert!(page.contains(&format!("In the {title} this robot has")), "{title}");
+        assert!(page.contains("certified area") && !page.contains("Q-aspects</h2>"));
+        let files = files(&dir);
+        for figure in ["overview", "aspects-mf8-negative", "parallel-aspects", "serial-aspects"] {
+            let svg = &files[Path::new(&format!("figures/{figure}.svg"))];
+            for text in [title, labels[0], labels[1]] {
+                assert!(svg.contains(&format!(">{text}</text>")), "{text} in {figure} of {name}");
+            }
+            assert!(!svg.contains(">q"), "a joint axis in {figure} of {name}");
+        }
+    }
+}
+
+/// A line of poses is drawn as one strip a class, every aspect with its number and colour.
+#[test]
+fn slices_with_one_free_coordinate() {
+    let three = slice(&three_rrr(), 12, &[(0, -5.0), (2, 0.3)]);
+    for (name, analysis) in [("five-bar-y", slice(&five_bar(), 12, &[(1, 0.0)])), ("3-rrr-x-phi", three)] {
+        let (dir, _keep) = directory(name);
+        checked(&analysis, &dir, &FLAT, 500_000);
+        let files = files(&dir);
+        let svg = &files[Path::new("figures/strips.svg")];
+        for aspect in analysis.classes.iter().flat_map(|c| &c.aspects) {
+            assert!(svg.contains(&format!(">{}</text>", aspect.id)), "{} in {name}", aspect.id);
+            assert!(svg.contains(&format!("fill:{}", aspecta_cli::figure::palette::aspect(aspect.id))));
+        }
+        assert_eq!(svg.matches("det A").count(), analysis.classes.len());
+    }
+}
+
 /// Same analysis, same files, on one thread and on several.
 #[test]
 fn reports_are_deterministic() {
-    for robot in [five_bar(), three_rrr()] {
-        let analysis = analysis(&robot, 5);
+    let slices = [slice(&three_rrr(), 6, &[(2, 0.0)]), slice(&three_rrr(), 8, &[(0, -5.0), (2, 0.3)])];
+    for analysis in slices.into_iter().chain([five_bar(), three_rrr()].map(|robot| analysis(&robot, 5))) {
         let write = |threads| {
             let dir = tempfile::tempdir().unwrap();
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();

@@ -14,7 +14,12 @@ static NEVER: AtomicBool = AtomicBool::new(false);
 
 fn analyzed(robot: &Robot, depth: u32) -> Analysis {
     let budget = Budget { depth: Some(depth), ..Budget::default() };
-    analyze(robot, &Options { budget }, &Control { cancelled: &NEVER, progress: &|_| () }).unwrap()
+    analyze(
+        robot,
+        &Options { budget, ..Options::default() },
+        &Control { cancelled: &NEVER, progress: &|_| () },
+    )
+    .unwrap()
 }
 
 fn five_bar() -> Robot {

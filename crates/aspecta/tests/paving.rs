@@ -281,9 +281,13 @@ fn pose_in(paving: &Paving, node: u32, dice: &mut Dice) -> Vec<f64> {
 }
 
 fn analyzed(robot: &Robot) -> Option<Analysis> {
-    let depth = if robot.dof() == 2 { 7 } else { 4 };
+    analyzed_slice(robot, Vec::new())
+}
+
+fn analyzed_slice(robot: &Robot, fix: Vec<(usize, f64)>) -> Option<Analysis> {
+    let depth = [10, 7, 4][robot.dof() - fix.len() - 1];
     // The windows of some random robots are empty.
-    analyze(robot, &Options { budget: to_depth(depth) }, &control()).ok()
+    analyze(robot, &Options { budget: to_depth(depth), fix }, &control()).ok()
 }
 
 fn classes(paving: &Paving) -> impl Iterator<Item = (usize, WorkingMode, DetSign)> {
@@ -310,6 +314,34 @@ fn certificates_hold() {
         }
     }
     // Of every family the test has seen boxes inside, outside with the mode existing, closed, and out of reach.
+    assert!(seen.iter().flatten().all(|&n| n >= 20), "{seen:?}");
+}
+
+/// The same of slices, one or two coordinates being held anywhere in the window.
+#[test]
+fn certificates_hold_in_slices() {
+    let mut seen = [[0usize; 4]; FAMILIES];
+    for (family, robot, rest) in robots(60) {
+        let mut dice = Dice(rest.iter());
+        let Ok(window) = robot.workspace_window() else { continue };
+        let first = dice.between(0.0, robot.dof() as f64) as usize;
+        let mut held = BTreeSet::from([first]);
+        if robot.dof() == 3 && dice.chance(0.3) {
+            held.insert((first + 1) % 3);
+        }
+        let value = |k: usize, dice: &mut Dice| dice.between(window.ranges[k].0, window.ranges[k].1);
+        let fix: Vec<_> = held.iter().map(|&k| (k, value(k, &mut dice))).collect();
+        let Some(analysis) = analyzed_slice(&robot, fix.clone()) else { continue };
+        let paving = &analysis.paving;
+        assert_eq!(paving.axes.len() + held.len(), robot.dof());
+        for _ in 0..100 {
+            let node =
+                (dice.between(0.0, paving.nodes.len() as f64) as u32).min(paving.nodes.len() as u32 - 1);
+            let x = pose_in(paving, node, &mut dice);
+            assert!(fix.iter().all(|&(k, value)| x[k] == value), "{x:?} {fix:?}");
+            check_box(&robot, &paving.nodes[node as usize], paving, &x, &mut seen[family]);
+        }
+    }
     assert!(seen.iter().flatten().all(|&n| n >= 20), "{seen:?}");
 }
 
@@ -480,7 +512,11 @@ fn the_constraint_named_is_the_one_that_fails() {
 // The tree.
 
 fn paved(robot: &Robot, depth: u32) -> Paving {
-    let window = robot.workspace_window().unwrap();
+    paved_slice(robot, depth, &[])
+}
+
+fn paved_slice(robot: &Robot, depth: u32, fix: &[(usize, f64)]) -> Paving {
+    let window = robot.slice(fix).unwrap();
     Paving::new(robot, &window, &robot.working_modes(), &to_depth(depth), &control())
 }
 
@@ -542,6 +578,29 @@ fn touching_boxes_are_those_that_share_a_point() {
         pairs += check_adjacency(&paving, &|node| node.of_classes(0xAAAA));
     }
     assert!(pairs > 10_000, "{pairs}");
+}
+
+/// The same in one and two dimensions, with none, one or both of them glued.
+#[test]
+fn touching_boxes_of_slices_are_those_that_share_a_point() {
+    for (name, depth, fix) in [
+        ("five-bar", 8, vec![(1, 2.0)]),
+        ("3-rrr", 5, vec![(2, 0.3)]),
+        ("3-rrr", 5, vec![(0, -5.0)]),
+        ("3-rrr", 8, vec![(0, -5.0), (1, -5.0)]),
+        ("3-rpr", 7, vec![(0, 9.0), (2, 0.3)]),
+        ("spherical-3-rrr", 4, vec![(1, 0.3)]),
+        ("spherical-3-rrr", 4, vec![(0, 0.3)]),
+        ("delta", 4, vec![(2, -900.0)]),
+    ] {
+        let paving = paved_slice(&catalogue::find(name).unwrap(), depth, &fix);
+        let mut pairs = 0;
+        for m in 0..paving.modes.len().min(3) {
+            pairs += check_adjacency(&paving, &|node| node.of_classes(1 << (2 * m)));
+            pairs += check_adjacency(&paving, &|node| node.of_mode(m));
+        }
+        assert!(pairs > 10, "{name} {fix:?}: {pairs}");
+    }
 }
 
 /// The boxes of a set and the boxes outside it fill the window without gap or overlap.
@@ -606,7 +665,7 @@ fn a_box_budget_is_kept() {
 #[test]
 fn depth_and_resolution_are_honoured() {
     let robot = catalogue::find("five-bar").unwrap();
-    let run = |budget| analyze(&robot, &Options { budget }, &control()).unwrap();
+    let run = |budget| analyze(&robot, &Options { budget, ..Options::default() }, &control()).unwrap();
     let analysis = run(to_depth(6));
     assert_eq!((analysis.run.depth, analysis.run.stop), (6, Stop::Resolution));
     let analysis = run(Budget { resolution: Some(0.5), ..Budget::default() });

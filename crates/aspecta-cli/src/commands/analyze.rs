@@ -1,6 +1,6 @@
 //! `aspecta analyze`: working modes and generalized aspects.
 
-use super::{budget, summary};
+use super::{budget, fix, summary};
 use crate::failure::{Answer, Failure};
 use crate::input;
 use crate::output::{self, note};
@@ -28,9 +28,13 @@ pub struct Analyze {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// When to stop, whatever comes first: 30s | 5min | 2e6boxes | depth=9 | res=0.1, separated by commas
-    /// [default: depth 11 for 2 degrees of freedom, 8 for 3; never more than 4e7 boxes]. Drawing --out comes on top
+    /// [default: depth 11 for 2 free coordinates, 8 for 3, 16 for 1; never more than 4e7 boxes]. Drawing --out comes on top
     #[arg(long, value_parser = budget::parse, allow_hyphen_values = true)]
     budget: Option<Budget>,
+    /// Hold a coordinate at a value and analyse that slice: x=-4, phi=0.5 (radians) or phi=30deg; again, or separated by
+    /// commas, for several. det A stays that of the whole robot
+    #[arg(long, value_name = "COORDINATE=VALUE", value_delimiter = ',')]
+    fix: Vec<String>,
     /// Number of threads [default: all cores]; the result does not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
@@ -39,6 +43,7 @@ pub struct Analyze {
 impl Analyze {
     pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
         let robot = input::robot(&self.robot)?;
+        let fix = fix::parse(&robot, &self.fix)?;
         if let Some(directory) = &self.out {
             // Before the long work, not after it.
             fs::create_dir_all(directory).map_err(Failure::in_directory(directory))?;
@@ -58,7 +63,7 @@ impl Analyze {
             bar.set_position(p.done);
             bar.set_message(p.stage);
         };
-        let options = Options { budget: self.budget.unwrap_or_default() };
+        let options = Options { budget: self.budget.unwrap_or_default(), fix };
         let analysis = analyze(&robot, &options, &Control { cancelled: &CANCELLED, progress: &show })?;
         bar.finish_and_clear();
         self.print(out, &analysis)?;

@@ -3,9 +3,8 @@
 use super::queries::Labels;
 use crate::failure::Failure;
 use crate::output::{Align, Table, brief};
-use aspecta::aspect::{Analysis, Aspect, AspectClass, DetSign, EarlierAspects, Reachable};
+use aspecta::aspect::{Analysis, Aspect, AspectClass, DetSign, EarlierAspects, Held, Measure, Reachable};
 use aspecta::paving::Stop;
-use aspecta::robot::Robot;
 use std::io::Write;
 
 /// Columns of the terminal that the summary is made for.
@@ -18,13 +17,16 @@ pub fn print(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
     let robot = &analysis.robot;
     let title = if robot.title.is_empty() { String::new() } else { format!(": {}", robot.title) };
     paragraph(out, &format!("{}{title} ({}, {} legs)", robot.name, robot.platform, robot.dof()))?;
+    if let Some(slice) = slice(analysis) {
+        paragraph(out, &slice)?;
+    }
     theorem_1(out, analysis)?;
     table_1(out, analysis)?;
     table_2(out, analysis)?;
     aspects(out, analysis)?;
     writeln!(out)?;
-    paragraph(out, &earlier("Def. 5, parallel aspects", &analysis.parallel_aspects, robot))?;
-    paragraph(out, &earlier("Def. 6, serial aspects", &analysis.serial_aspects, robot))?;
+    paragraph(out, &earlier("Def. 5, parallel aspects", &analysis.parallel_aspects, &analysis.measure))?;
+    paragraph(out, &earlier("Def. 6, serial aspects", &analysis.serial_aspects, &analysis.measure))?;
     writeln!(out)?;
     paragraph(out, &run(analysis))
 }
@@ -32,6 +34,16 @@ pub fn print(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
 fn paragraph(out: &mut dyn Write, text: &str) -> Result<(), Failure> {
     let options = textwrap::Options::new(WIDTH).subsequent_indent("  ");
     Ok(writeln!(out, "{}", textwrap::fill(text, options))?)
+}
+
+/// What was held, if anything.
+fn slice(analysis: &Analysis) -> Option<String> {
+    let held: Vec<_> = analysis.fixed.iter().map(Held::to_string).collect();
+    let robot = &analysis.robot;
+    let free = analysis.window.axes().into_iter().map(|k| robot.platform.coordinates()[k].name);
+    let free = free.collect::<Vec<_>>().join(", ");
+    let note = "det A is that of the whole robot";
+    (!held.is_empty()).then(|| format!("slice {} (free: {free}; {note})", held.join(", ")))
 }
 
 /// One line for all legs of the same answer.
@@ -79,8 +91,7 @@ fn table_2(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
     writeln!(
         out,
         "\nTable 2: generalized aspects (Def. 8), {} in {}",
-        measure_name(&analysis.robot),
-        unit(&analysis.robot)
+        analysis.measure.name, analysis.measure.unit
     )?;
     let signs = (1..=analysis.robot.dof()).map(|j| (format!("B_{j}{j}"), Align::Left));
     let numbers = ["aspects", "certified inside", "undecided", "undecided share"];
@@ -102,7 +113,8 @@ fn table_2(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
         Some(high) => format!("certified: at least {} and at most {high}", count.low),
         None => format!("certified: at least {}; no upper bound is proved at this resolution", count.low),
     };
-    Ok(writeln!(out, "number of generalized aspects, {total}")?)
+    let of_slice = if analysis.fixed.is_empty() { "" } else { " of the slice" };
+    paragraph(out, &format!("number of generalized aspects{of_slice}, {total}"))
 }
 
 fn aspects(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
@@ -115,8 +127,7 @@ fn aspects(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
     let (pose, joints) = (Labels::pose(&analysis.robot, false), Labels::joints(&analysis.robot, false));
     let right = |name: &str| (name.to_owned(), Align::Right);
     let left = |name: &str| (name.to_owned(), Align::Left);
-    let names =
-        [right("id"), left("mode"), left("det A"), right(measure_name(&analysis.robot)), right("pieces")];
+    let names = [right("id"), left("mode"), left("det A"), right(analysis.measure.name), right("pieces")];
     let vectors = pose.headings().chain(joints.headings()).map(|name| (name, Align::Right));
     let mut table = Table::new(names.into_iter().chain(vectors));
     for (class, aspect) in all.iter().take(LISTED) {
@@ -138,14 +149,15 @@ fn aspects(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
 }
 
 /// Definition 5 or 6 in a sentence.
-fn earlier(name: &str, sets: &[EarlierAspects], robot: &Robot) -> String {
+fn earlier(name: &str, sets: &[EarlierAspects], measure: &Measure) -> String {
     let counts: Vec<_> = sets.iter().map(|s| format!("{} in {}", s.domains.len(), s.name)).collect();
     let overlap = sets.iter().map(|s| s.overlap).fold(0.0, f64::max);
     let verdict = if overlap > 0.0 {
         format!(
-            "they overlap ({} of {}), so they do not separate the solutions",
-            measure_name(robot),
-            amount(overlap, robot)
+            "they overlap ({} of {} {}), so they do not separate the solutions",
+            measure.name,
+            brief(overlap),
+            measure.unit
         )
     } else {
         "no overlap found".into()
@@ -162,7 +174,8 @@ fn run(analysis: &Analysis) -> String {
         Stop::Cancelled => "cancelled",
     };
     let coordinates = analysis.robot.platform.coordinates();
-    let widths = run.resolution.iter().zip(coordinates).map(|(w, c)| {
+    let varying = run.resolution.iter().zip(coordinates).filter(|(w, _)| **w > 0.0);
+    let widths = varying.map(|(w, c)| {
         let unit = if c.angle { "rad" } else { &analysis.robot.length_unit };
         format!("{} {unit}", brief(*w))
     });
@@ -185,24 +198,4 @@ fn bounds(low: usize, high: Option<usize>) -> String {
 fn share(class: &AspectClass) -> String {
     let whole = class.measure + class.undecided;
     if whole > 0.0 { format!("{:.2} %", 100.0 * class.undecided / whole) } else { "-".into() }
-}
-
-fn measure_name(robot: &Robot) -> &'static str {
-    if robot.dof() == 2 { "area" } else { "volume" }
-}
-
-fn amount(x: f64, robot: &Robot) -> String {
-    format!("{} {}", brief(x), unit(robot))
-}
-
-/// The unit of areas and volumes of the workspace.
-fn unit(robot: &Robot) -> String {
-    let power = |unit: &str, n: usize| match n {
-        0 => None,
-        1 => Some(unit.to_owned()),
-        n => Some(format!("{unit}^{n}")),
-    };
-    let angles = robot.platform.coordinates().iter().filter(|c| c.angle).count();
-    let parts = [power(&robot.length_unit, robot.dof() - angles), power("rad", angles)];
-    parts.into_iter().flatten().collect::<Vec<_>>().join(" ")
 }

@@ -1,8 +1,10 @@
 //! A plot with axes: ticks, units and equal scale.
 
-use super::palette::INK;
 use super::svg::{Anchor, Number, Svg};
 use std::f64::consts::PI;
+
+/// Frames and ticks, in [`super::palette::INK`].
+const THIN: &str = "fill:none;stroke:#222;stroke-width:0.8";
 
 /// One axis of a plot.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,27 +71,40 @@ impl Chart {
         ));
     }
 
-    /// Frame, ticks, labels and title.
-    pub fn frame(&self, svg: &mut Svg, title: &str) {
-        let thin = format!("fill:none;stroke:{INK};stroke-width:0.8");
-        svg.rect(self.left, self.top, self.width, self.height, &thin);
+    /// Frame, ticks and label of the horizontal axis, and title.
+    pub fn frame_across(&self, svg: &mut Svg, title: &str) {
+        svg.rect(self.left, self.top, self.width, self.height, THIN);
         let (bottom, middle) = (self.top + self.height, self.left + self.width / 2.0);
         for (value, text) in self.x.ticks(self.width) {
             let px = self.at([value, 0.0])[0];
-            svg.line([px, bottom], [px, bottom + 4.0], &thin);
+            svg.line([px, bottom], [px, bottom + 4.0], THIN);
             svg.text([px, bottom + 15.0], Anchor::Middle, 10.0, "", &text);
         }
-        let mut widest = 0;
+        svg.text([middle, bottom + 29.0], Anchor::Middle, 11.0, "", &self.x.label);
+        svg.text([middle, self.top - 7.0], Anchor::Middle, 12.0, "font-weight:600", title);
+    }
+
+    /// From the baseline of the vertical axis' label to the plot, pixels.
+    fn label_distance(&self) -> f64 {
+        let texts = self.y.ticks(self.height).into_iter().map(|(_, text)| text.chars().count());
+        13.0 + 6.0 * texts.max().unwrap_or(0) as f64
+    }
+
+    /// Pixels [`Chart::frame`] takes on the left of the plot.
+    pub fn margin(&self) -> f64 {
+        self.label_distance() + 10.0
+    }
+
+    /// Frame, ticks, labels and title.
+    pub fn frame(&self, svg: &mut Svg, title: &str) {
+        self.frame_across(svg, title);
         for (value, text) in self.y.ticks(self.height) {
             let py = self.at([0.0, value])[1];
-            svg.line([self.left - 4.0, py], [self.left, py], &thin);
+            svg.line([self.left - 4.0, py], [self.left, py], THIN);
             svg.text([self.left - 6.0, py + 3.5], Anchor::End, 10.0, "", &text);
-            widest = widest.max(text.chars().count());
         }
-        svg.text([middle, bottom + 29.0], Anchor::Middle, 11.0, "", &self.x.label);
-        let beside = [self.left - 13.0 - 6.0 * widest as f64, self.top + self.height / 2.0];
+        let beside = [self.left - self.label_distance(), self.top + self.height / 2.0];
         svg.text_turned(beside, -90.0, Anchor::Middle, 11.0, "", &self.y.label);
-        svg.text([middle, self.top - 7.0], Anchor::Middle, 12.0, "font-weight:600", title);
     }
 }
 

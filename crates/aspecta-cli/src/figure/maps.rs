@@ -1,4 +1,5 @@
-//! W- and Q-aspects of robots with two coordinates: figures 6, 7 and 9.
+//! W- and Q-aspects of robots with two coordinates: figures 6, 7 and 9. Of slices with two free coordinates the same
+//! without Q, where they are surfaces.
 
 use super::axes::{Axis, Chart};
 use super::barrier::Kind;
@@ -13,19 +14,23 @@ use aspecta::kinematics::WorkingMode;
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
-/// Pixels round a plot for its texts.
+/// Pixels round a plot for its texts; on the left more if the numbers there need it.
 const LEFT: f64 = 48.0;
 const TOP: f64 = 26.0;
 const BELOW: f64 = 40.0;
 const BESIDE: f64 = 10.0;
+/// Least width of a figure with a legend.
+const LEGEND: f64 = 720.0;
+/// Height of the line that names a slice.
+const HEADING: f64 = 20.0;
 
 /// Figure 9: all modes (rows), W and Q for det A > 0 and det A < 0 (columns).
 pub fn figure_9(survey: &Survey<'_>) -> String {
     let modes = survey.robot.working_modes();
     let layout = Layout::new(survey, 225.0);
-    let size = (2.0 * layout.pair() + 10.0, modes.len() as f64 * layout.row() + 34.0);
-    let mut svg =
-        Svg::new("figure9", size.0, size.1, &format!("W-aspects and Q-aspects of {}", survey.robot.name));
+    let size = ((2.0 * layout.pair() + 10.0).max(LEGEND), layout.height(modes.len()));
+    let spaces = if survey.joint_axes.is_some() { "W-aspects and Q-aspects" } else { "W-aspects" };
+    let mut svg = open("figure9", size, &format!("{spaces} of {}", survey.robot.name), survey);
     for (k, &mode) in modes.iter().enumerate() {
         for (c, sign) in [DetSign::Positive, DetSign::Negative].into_iter().enumerate() {
             class_panels(&mut svg, survey, mode, sign, &layout.charts(c, k));
@@ -38,9 +43,9 @@ pub fn figure_9(survey: &Survey<'_>) -> String {
 /// One class: its W-aspects beside its Q-aspects.
 pub fn class(survey: &Survey<'_>, mode: WorkingMode, sign: DetSign) -> String {
     let layout = Layout::new(survey, 400.0);
-    let size = ((layout.pair() + 10.0).max(720.0), layout.row() + 34.0);
+    let size = ((layout.pair() + 10.0).max(LEGEND), layout.height(1));
     let title = format!("Aspects of mode {} with {}", signs(&mode.to_string()), sign_text(sign));
-    let mut svg = Svg::new(&class_name(survey, mode, sign), size.0, size.1, &title);
+    let mut svg = open(&class_name(survey, mode, sign), size, &title, survey);
     class_panels(&mut svg, survey, mode, sign, &layout.charts(0, 0));
     legend(&mut svg, survey, [LEFT, size.1 - 12.0]);
     svg.finish()
@@ -58,58 +63,81 @@ pub fn sign_text(sign: DetSign) -> &'static str {
     if sign == DetSign::Positive { "det A > 0" } else { "det A < 0" }
 }
 
-/// Pairs of plots, W beside Q, in rows and columns.
+/// An empty figure; of a slice it says of which.
+fn open(id: &str, size: (f64, f64), title: &str, survey: &Survey<'_>) -> Svg {
+    let Some(slice) = &survey.slice else { return Svg::new(id, size.0, size.1, title) };
+    let mut svg = Svg::new(id, size.0, size.1, &format!("{title}, {slice}"));
+    svg.text([LEFT, 14.0], Anchor::Start, 12.0, "font-weight:600", slice);
+    svg
+}
+
+/// Pairs of plots, W beside Q if there is one, in rows and columns.
 struct Layout {
     w: Chart,
-    q: Chart,
+    q: Option<Chart>,
+    /// Where the first row begins.
+    top: f64,
+    /// Pixels left of a plot.
+    left: f64,
 }
 
 impl Layout {
     /// Plots of at most `side` pixels.
     fn new(survey: &Survey<'_>, side: f64) -> Self {
         let fit = |[x, y]: [Axis; 2]| Chart::fit(x, y, 0.0, 0.0, side, side);
-        Self { w: fit(survey.pose_axes.clone()), q: fit(survey.joint_axes.clone()) }
+        let top = if survey.slice.is_some() { HEADING } else { 0.0 };
+        let (w, q) = (fit(survey.pose_axes.clone()), survey.joint_axes.clone().map(fit));
+        let left = q.iter().chain([&w]).map(Chart::margin).fold(LEFT, f64::max);
+        Self { w, q, top, left }
     }
 
     /// Width of a pair.
     fn pair(&self) -> f64 {
-        2.0 * (LEFT + BESIDE) + self.w.width + self.q.width
+        let width = |chart: &Chart| self.left + BESIDE + chart.width;
+        width(&self.w) + self.q.as_ref().map_or(0.0, width)
     }
 
     /// Height of a row.
     fn row(&self) -> f64 {
-        TOP + self.w.height.max(self.q.height) + BELOW
+        TOP + self.w.height.max(self.q.as_ref().map_or(0.0, |q| q.height)) + BELOW
+    }
+
+    /// Height of a figure with so many rows, and a legend below.
+    fn height(&self, rows: usize) -> f64 {
+        self.top + rows as f64 * self.row() + 34.0
     }
 
     /// The plots of W and Q in a place of the table.
-    fn charts(&self, column: usize, row: usize) -> [Chart; 2] {
-        let left = LEFT + column as f64 * self.pair();
-        let top = TOP + row as f64 * self.row();
-        let q_left = left + self.w.width + BESIDE + LEFT;
-        [Chart { left, top, ..self.w.clone() }, Chart { left: q_left, top, ..self.q.clone() }]
+    fn charts(&self, column: usize, row: usize) -> (Chart, Option<Chart>) {
+        let left = self.left + column as f64 * self.pair();
+        let top = self.top + TOP + row as f64 * self.row();
+        let q_left = left + self.w.width + BESIDE + self.left;
+        let q = self.q.clone().map(|q| Chart { left: q_left, top, ..q });
+        (Chart { left, top, ..self.w.clone() }, q)
     }
 }
 
-fn class_panels(svg: &mut Svg, survey: &Survey<'_>, mode: WorkingMode, sign: DetSign, charts: &[Chart; 2]) {
+fn class_panels(
+    svg: &mut Svg,
+    survey: &Survey<'_>,
+    mode: WorkingMode,
+    sign: DetSign,
+    (chart, q_chart): &(Chart, Option<Chart>),
+) {
     let Some((map, curves)) = survey.of(mode, sign) else { return };
     let name = format!("({}), {}", signs(&mode.to_string()), sign_text(sign));
     let aspects = &map.class.aspects;
 
-    let [chart, q_chart] = charts;
     fill(svg, chart, &map.w, label_colour);
     draw_lines(svg, chart, &curves.w, [false; 2]);
-    number(svg, chart, aspects, |a| [a.sample.pose[0], a.sample.pose[1]]);
+    number(svg, chart, aspects, |a| survey.axes.map(|k| a.sample.pose[k]));
     chart.frame(svg, &format!("W {name}"));
 
-    let chart = q_chart;
-    fill(svg, chart, &map.q, label_colour);
-    draw_lines(svg, chart, &curves.q, turns(survey));
+    let (Some(chart), Some(q)) = (q_chart, &map.q) else { return };
+    fill(svg, chart, q, label_colour);
+    draw_lines(svg, chart, &curves.q, [chart.x.angle, chart.y.angle]);
     number(svg, chart, aspects, |a| [a.sample.q[0], a.sample.q[1]]);
     chart.frame(svg, &format!("Q {name}"));
-}
-
-fn turns(survey: &Survey<'_>) -> [bool; 2] {
-    [0, 1].map(|k| survey.joint_axes[k].angle)
 }
 
 fn label_colour(label: Label) -> Option<&'static str> {
@@ -259,8 +287,8 @@ type Row = (String, Option<DetSign>, Option<WorkingMode>);
 
 fn overlaid(survey: &Survey<'_>, id: &str, title: &str, rows: &[Row]) -> String {
     let layout = Layout::new(survey, 240.0);
-    let size = (2.0 * layout.pair() + 10.0, rows.len().div_ceil(2) as f64 * layout.row() + 34.0);
-    let mut svg = Svg::new(id, size.0, size.1, title);
+    let size = ((2.0 * layout.pair() + 10.0).max(LEGEND), layout.height(rows.len().div_ceil(2)));
+    let mut svg = open(id, size, title, survey);
     let mut most = 1;
     for (k, (name, sign, mode)) in rows.iter().enumerate() {
         let chosen = || {
@@ -269,9 +297,11 @@ fn overlaid(survey: &Survey<'_>, id: &str, title: &str, rows: &[Row]) -> String 
             };
             survey.classes.iter().filter(wanted)
         };
-        let counts = [("W", overlay(chosen().map(|c| &c.w))), ("Q", overlay(chosen().map(|c| &c.q)))];
-        for ((space, counts), chart) in counts.into_iter().zip(layout.charts(k % 2, k / 2)) {
-            let Some(counts) = counts else { continue };
+        let (chart, q_chart) = layout.charts(k % 2, k / 2);
+        let w = ("W", overlay(chosen().map(|c| &c.w)), Some(chart));
+        let q = ("Q", overlay(chosen().filter_map(|c| c.q.as_ref())), q_chart);
+        for (space, counts, chart) in [w, q] {
+            let (Some(counts), Some(chart)) = (counts, chart) else { continue };
             for over in counts.labels() {
                 if let Over::Certainly(n) = over {
                     most = most.max(n);
@@ -287,7 +317,7 @@ fn overlaid(survey: &Survey<'_>, id: &str, title: &str, rows: &[Row]) -> String 
     }
     let mut x = LEFT;
     for n in 1..=most {
-        let text = if n == 1 { "1 configuration".into() } else { format!("{n} configurations") };
+        let text = if n == 1 { "1 configuration".into() } else { n.to_string() };
         x = swatch(&mut svg, [x, size.1 - 12.0], palette::count(n), &text);
     }
     swatch(&mut svg, [x, size.1 - 12.0], UNDECIDED, "undecided");

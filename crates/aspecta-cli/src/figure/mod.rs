@@ -15,5 +15,6 @@ pub mod raster;
 pub mod robot;
 mod skeleton;
 pub mod slices;
+pub mod strips;
 pub mod survey;
 pub mod svg;

@@ -20,8 +20,9 @@ pub fn aspect(id: usize) -> &'static str {
     ASPECTS[id.saturating_sub(1) % ASPECTS.len()]
 }
 
-/// A sequence from light to dark for small counts, 1 upward (Tol's *YlOrBr*).
+/// A sequence from light to dark for small counts, 1 upward (Tol's *YlOrBr*, and a step beyond).
 pub fn count(n: usize) -> &'static str {
-    const STEPS: [&str; 6] = ["#fee391", "#fec44f", "#ec7014", "#cc4c02", "#993404", "#662506"];
+    const STEPS: [&str; 8] =
+        ["#fee391", "#fec44f", "#fb9a29", "#ec7014", "#cc4c02", "#993404", "#662506", "#331203"];
     STEPS[n.saturating_sub(1).min(STEPS.len() - 1)]
 }

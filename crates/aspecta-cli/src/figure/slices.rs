@@ -1,4 +1,4 @@
-//! Robots with three coordinates: slices of the W-aspects, one figure a working mode.
+//! Robots with three free coordinates: slices of the W-aspects, one figure a working mode.
 
 use super::axes::{Axis, Chart};
 use super::barrier::Kind;
@@ -16,6 +16,8 @@ use aspecta::robot::{Robot, Window};
 
 /// Slices in a figure, in rows of three.
 const SLICES: usize = 9;
+/// Longest side of a slice, pixels.
+const SIDE: f64 = 270.0;
 /// Grid cells per side in which singular curves are looked for.
 const GRID: usize = 128;
 /// Most pixels along a side.
@@ -40,18 +42,17 @@ pub fn slices(robot: &Robot, window: &Window, sides: [usize; 3], mode: &ModeCell
     let third = robot.platform.coordinates()[2];
     let (name, range) = (coordinate_name(third.name), window.ranges[2]);
     let unit = if third.angle { "rad" } else { &robot.length_unit };
-    let panel = (48.0, 26.0, 270.0, 40.0); // left, above, side, below
-    let count = if range.0 < range.1 { SLICES } else { 1 };
-    let rows = count.div_ceil(3);
     let [x, y] = axes.clone();
-    let shape = Chart::fit(x, y, 0.0, 0.0, panel.2, panel.2);
+    let shape = Chart::fit(x, y, 0.0, 0.0, SIDE, SIDE);
+    let panel = (shape.margin().max(48.0), 26.0, SIDE, 40.0); // left, above, side, below
+    let rows = SLICES.div_ceil(3);
     let step = (panel.0 + shape.width + 8.0, panel.1 + shape.height + panel.3);
     let size = ((3.0 * step.0 + 10.0).max(700.0), rows as f64 * step.1 + 34.0);
     let text = signs(&mode.mode.to_string());
     let mut svg =
         Svg::new(&format!("slices-mf{}", mode.number), size.0, size.1, &format!("Slices of mode ({text})"));
-    for k in 0..count {
-        let at = range.0 + (range.1 - range.0) * (k as f64 + 0.5) / count as f64;
+    for k in 0..SLICES {
+        let at = range.0 + (range.1 - range.0) * (k as f64 + 0.5) / SLICES as f64;
         let [x, y] = axes.clone();
         let (left, top) = (panel.0 + (k % 3) as f64 * step.0, panel.1 + (k / 3) as f64 * step.1);
         let chart = Chart::fit(x, y, left, top, panel.2, panel.2);
@@ -78,11 +79,7 @@ fn slice(mode: &ModeCells<'_>, axes: &[Axis; 2], size: [usize; 2], at: f64) -> R
         .classes
         .iter()
         .map(|(_, cells)| {
-            let cut: Vec<Cell> = cells
-                .iter()
-                .filter(|c| c.lo[2] <= at && (at < c.hi[2] || c.lo[2] == c.hi[2]))
-                .copied()
-                .collect();
+            let cut: Vec<Cell> = cells.iter().filter(|c| c.lo[2] <= at && at < c.hi[2]).copied().collect();
             cell_raster(&cut, axes, [0, 1], size)
         })
         .collect();

@@ -1,4 +1,4 @@
-//! What the maps of a robot with two coordinates show, computed once and drawn by several figures.
+//! What the maps of a robot with two free coordinates show, computed once and drawn by several figures.
 
 use super::axes::Axis;
 use super::barrier::Kind;
@@ -6,7 +6,7 @@ use super::curves::{Plane, Sheet};
 use super::image::image;
 use super::level::Grid;
 use super::raster::{Label, Raster, pixels};
-use aspecta::aspect::{AspectClass, Cell, DetSign};
+use aspecta::aspect::{Analysis, AspectClass, Cell, DetSign, Held};
 use aspecta::kinematics::WorkingMode;
 use aspecta::robot::{Robot, Window};
 use rayon::prelude::*;
@@ -17,15 +17,19 @@ const GRID: usize = 512;
 /// Pixels per side of the Q-aspects.
 const PIXELS: usize = 768;
 
-/// W and Q of a robot with two coordinates, all classes.
+/// W, and of a robot with two joints Q, all classes; two coordinates vary, the others are held.
 #[derive(Clone, Debug)]
 pub struct Survey<'a> {
     /// The robot.
     pub robot: &'a Robot,
-    /// x and y.
+    /// What is held: [`slice_name`].
+    pub slice: Option<String>,
+    /// The coordinates that vary.
+    pub axes: [usize; 2],
+    /// Their axes.
     pub pose_axes: [Axis; 2],
-    /// q₁ and q₂.
-    pub joint_axes: [Axis; 2],
+    /// q₁ and q₂; `None` if there are more joints.
+    pub joint_axes: Option<[Axis; 2]>,
     /// One entry a class.
     pub classes: Vec<ClassMap<'a>>,
     /// The boundary curves, one entry a working mode.
@@ -39,8 +43,8 @@ pub struct ClassMap<'a> {
     pub class: &'a AspectClass,
     /// W-aspects: the certified cells.
     pub w: Raster<Label>,
-    /// Q-aspects: their images.
-    pub q: Raster<Label>,
+    /// Q-aspects: their images, if Q is a plane.
+    pub q: Option<Raster<Label>>,
 }
 
 /// Lines of one kind, as polylines.
@@ -53,37 +57,35 @@ pub struct ModeCurves {
     pub mode: WorkingMode,
     /// In W.
     pub w: Lines,
-    /// Their images in Q; angles unwound.
+    /// Their images in Q, if that is a plane; angles unwound.
     pub q: Lines,
 }
 
 impl<'a> Survey<'a> {
-    /// Maps of all classes; `cells[k]` are those of class k and `side` is the number of finest cells along an axis.
-    pub fn new(
-        robot: &'a Robot,
-        window: &Window,
-        side: usize,
-        classes: &'a [AspectClass],
-        cells: &[Vec<Cell>],
-    ) -> Self {
-        let plane = Plane { through: vec![0.0; robot.dof()], axes: [0, 1] };
-        let pose_axes = pose_axes(robot, window, [0, 1]);
-        let joint_axes = joint_axes(robot, classes);
+    /// Maps of all classes; two coordinates must vary. `cells[k]` are the cells of class k and `side` is the number of finest cells
+    /// along an axis.
+    pub fn new(analysis: &'a Analysis, cells: &[Vec<Cell>], side: usize) -> Self {
+        let (robot, window, classes) = (&analysis.robot, &analysis.window, &analysis.classes);
+        let varying = window.axes();
+        let axes = [varying[0], varying[1]];
+        let plane = Plane { through: window.ranges.iter().map(|r| r.0).collect(), axes };
+        let pose_axes = pose_axes(robot, window, axes);
+        let joint_axes = (robot.dof() == 2).then(|| joint_axes(robot, classes));
         let side = side.clamp(1, 1024);
         let sheet = |mode| Sheet { robot, mode, plane: &plane };
         let maps = classes.par_iter().zip(cells).map(|(class, cells)| ClassMap {
             class,
             w: cell_raster(cells, &pose_axes, [0, 1], [side, side]),
-            q: image(&sheet(class.mode), class.det_a, cells, &joint_axes, PIXELS),
+            q: joint_axes.as_ref().map(|q| image(&sheet(class.mode), class.det_a, cells, q, PIXELS)),
         });
         let classes = maps.collect();
         let grid = Grid { x: pose_axes[0].range, y: pose_axes[1].range, n: GRID };
         let curves = robot
             .working_modes()
             .into_par_iter()
-            .map(|mode| mode_curves(&sheet(mode), &grid, &joint_axes))
+            .map(|mode| mode_curves(&sheet(mode), &grid, joint_axes.as_ref()))
             .collect();
-        Self { robot, pose_axes, joint_axes, classes, curves }
+        Self { robot, slice: slice_name(&analysis.fixed), axes, pose_axes, joint_axes, classes, curves }
     }
 
     /// The map of a mode and sign, and the mode's curves.
@@ -93,15 +95,22 @@ impl<'a> Survey<'a> {
     }
 }
 
-fn mode_curves(sheet: &Sheet<'_>, grid: &Grid, joint_axes: &[Axis; 2]) -> ModeCurves {
+fn mode_curves(sheet: &Sheet<'_>, grid: &Grid, joint_axes: Option<&[Axis; 2]>) -> ModeCurves {
     let curves = sheet.curves(grid);
-    let step = [0, 1].map(|k| joint_axes[k].span() / 200.0);
-    let image = |c| sheet.image(c, &step).into_iter().map(|q| [q[0], q[1]]).collect();
-    ModeCurves {
-        mode: sheet.mode,
-        q: curves.iter().map(|c| (c.kind, image(c))).collect(),
-        w: curves.into_iter().map(|c| (c.kind, c.points)).collect(),
-    }
+    let images = |axes: &[Axis; 2]| {
+        let step = [0, 1].map(|k| axes[k].span() / 200.0);
+        let image = |c| sheet.image(c, &step).into_iter().map(|q| [q[0], q[1]]).collect();
+        curves.iter().map(|c| (c.kind, image(c))).collect()
+    };
+    let q = joint_axes.map_or(Vec::new(), images);
+    ModeCurves { mode: sheet.mode, q, w: curves.into_iter().map(|c| (c.kind, c.points)).collect() }
+}
+
+/// `slice φ = 0.5 rad`, if anything is held.
+pub fn slice_name(fixed: &[Held]) -> Option<String> {
+    let part = |h: &Held| format!("{} = {} {}", coordinate_name(h.coordinate), h.value, h.unit);
+    let parts: Vec<_> = fixed.iter().map(part).collect();
+    (!parts.is_empty()).then(|| format!("slice {}", parts.join(", ")).replace('-', "−"))
 }
 
 /// The axes of a plane of poses.
@@ -111,16 +120,10 @@ pub fn pose_axes(robot: &Robot, window: &Window, axes: [usize; 2]) -> [Axis; 2] 
         let unit = if c.angle { "rad" } else { &robot.length_unit };
         Axis {
             label: format!("{} [{unit}]", coordinate_name(c.name)),
-            range: shown_range(window, k),
+            range: window.ranges[k],
             angle: c.angle,
         }
     })
-}
-
-/// The window's range of a coordinate, widened if the coordinate is fixed.
-pub fn shown_range(window: &Window, k: usize) -> (f64, f64) {
-    let (lo, hi) = window.ranges[k];
-    if lo < hi { (lo, hi) } else { (lo - 0.5, lo + 0.5) }
 }
 
 /// A coordinate's name as it is written in formulas.

@@ -4,7 +4,7 @@ mod page;
 mod tables;
 mod volume;
 
-use crate::figure::{self, maps, slices, survey::Survey};
+use crate::figure::{self, maps, slices, strips, survey::Survey};
 use crate::file::put;
 use aspecta::aspect::{Analysis, AspectClass, Cell, Sample};
 use rayon::prelude::*;
@@ -19,14 +19,17 @@ type Figure = (String, String);
 struct Figures {
     robot: Option<Figure>,
     postures: Figure,
-    /// Robots with two coordinates: figure 9, one figure per class, Definitions 5 and 6.
+    /// One free coordinate: all classes as strips.
+    strips: Option<Figure>,
+    /// Two free coordinates: figure 9, one figure per class, Definitions 5 and 6.
     flat: Option<FlatFigures>,
-    /// Robots with three coordinates: one figure of slices per mode.
+    /// Three free coordinates: one figure of slices per mode.
     slices: Vec<Figure>,
 }
 
 struct FlatFigures {
-    figure_9: Figure,
+    /// Figure 9, or its likeness of a slice.
+    overview: Figure,
     classes: Vec<Figure>,
     parallel: Figure,
     serial: Figure,
@@ -42,7 +45,7 @@ struct FlatFigures {
 pub fn write(analysis: &Analysis, dir: &Path) -> io::Result<Vec<PathBuf>> {
     let cells: Vec<Vec<Cell>> = (0..analysis.classes.len()).map(|k| analysis.cells(k)).collect();
     let figures = draw(analysis, &cells);
-    let volume = if analysis.robot.dof() == 3 { Some(volume::json(analysis, &cells)?) } else { None };
+    let volume = if analysis.window.axes().len() == 3 { Some(volume::json(analysis, &cells)?) } else { None };
     let folder = dir.join("figures");
     fs::create_dir_all(&folder)?;
     let mut written = vec![put(dir, "report.html", &page::page(analysis, &figures, volume.as_deref()))?];
@@ -57,18 +60,20 @@ impl Figures {
         let flat = self
             .flat
             .iter()
-            .flat_map(|f| [&f.figure_9].into_iter().chain(&f.classes).chain([&f.parallel, &f.serial]));
-        self.robot.iter().chain([&self.postures]).chain(flat).chain(&self.slices)
+            .flat_map(|f| [&f.overview].into_iter().chain(&f.classes).chain([&f.parallel, &f.serial]));
+        self.robot.iter().chain([&self.postures]).chain(&self.strips).chain(flat).chain(&self.slices)
     }
 }
 
 fn draw(analysis: &Analysis, cells: &[Vec<Cell>]) -> Figures {
     let robot = &analysis.robot;
+    let free = analysis.window.axes().len();
     Figures {
         robot: sample(analysis).map(|s| ("robot".into(), figure::robot::robot(robot, s))),
         postures: ("postures".into(), figure::robot::postures(robot, &analysis.modes)),
-        flat: (robot.dof() == 2).then(|| flat(analysis, cells)),
-        slices: if robot.dof() == 3 { mode_slices(analysis, cells) } else { Vec::new() },
+        strips: (free == 1).then(|| ("strips".into(), strips::strips(analysis, cells))),
+        flat: (free == 2).then(|| flat(analysis, cells)),
+        slices: if free == 3 { mode_slices(analysis, cells) } else { Vec::new() },
     }
 }
 
@@ -78,12 +83,13 @@ fn sample(analysis: &Analysis) -> Option<&Sample> {
 }
 
 fn flat(analysis: &Analysis, cells: &[Vec<Cell>]) -> FlatFigures {
-    let side = side(analysis, 0).max(side(analysis, 1));
-    let survey = Survey::new(&analysis.robot, &analysis.window, side, &analysis.classes, cells);
+    let side = analysis.window.axes().into_iter().map(|k| side(analysis, k)).max().unwrap_or(1);
+    let survey = Survey::new(analysis, cells, side);
+    let overview = if analysis.fixed.is_empty() { "figure9" } else { "overview" };
     let class =
         |c: &AspectClass| (maps::class_name(&survey, c.mode, c.det_a), maps::class(&survey, c.mode, c.det_a));
     FlatFigures {
-        figure_9: ("figure9".into(), maps::figure_9(&survey)),
+        overview: (overview.into(), maps::figure_9(&survey)),
         classes: analysis.classes.iter().map(class).collect(),
         parallel: ("parallel-aspects".into(), maps::parallel_aspects(&survey)),
         serial: ("serial-aspects".into(), maps::serial_aspects(&survey)),
@@ -102,8 +108,8 @@ fn mode_slices(analysis: &Analysis, cells: &[Vec<Cell>]) -> Vec<Figure> {
     analysis.modes.par_iter().map(figure).collect()
 }
 
-/// How many finest cells there are along a coordinate.
+/// How many finest cells there are along a coordinate that varies.
 fn side(analysis: &Analysis, axis: usize) -> usize {
     let (lo, hi) = analysis.window.ranges[axis];
-    if lo < hi { (((hi - lo) / analysis.run.resolution[axis]).round() as usize).max(1) } else { 1 }
+    (((hi - lo) / analysis.run.resolution[axis]).round() as usize).max(1)
 }

@@ -1,8 +1,9 @@
 //! The page itself.
 
-use super::tables::{self, bounds, measure_unit, number, size_word};
+use super::tables::{self, bounds, measure_unit, number};
 use super::{Figure, Figures, FlatFigures};
 use crate::figure::robot::signs;
+use crate::figure::survey::{coordinate_name, slice_name};
 use aspecta::aspect::{Analysis, Run};
 use aspecta::paving::Stop;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
@@ -11,22 +12,23 @@ const STYLE: &str = include_str!("page.css");
 const TABS: &str = include_str!("tabs.js");
 const VIEWER: &str = include_str!("../../viewer/dist/viewer.js");
 
-/// The whole page. `volume` is the packed volume of a robot with three coordinates.
+/// The whole page. `volume` is the packed volume of a robot with three free coordinates.
 pub fn page(analysis: &Analysis, figures: &Figures, volume: Option<&str>) -> String {
     let robot = &analysis.robot;
     let title = if robot.title.is_empty() { &robot.name } else { &robot.title };
+    let slice = slice_name(&analysis.fixed).map_or(String::new(), |slice| format!(", {slice}"));
     let page = html! {
         (DOCTYPE)
         html lang="en" {
             head {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
-                title { "Aspects of " (title) }
+                title { "Aspects of " (title) (slice) }
                 style { (PreEscaped(STYLE)) }
             }
             body {
                 header {
-                    h1 { "Working modes and aspects of " (title) }
+                    h1 { "Working modes and aspects of " (title) (slice) }
                     @if !robot.source.is_empty() { p { "Figures of the robot: " (robot.source) } }
                     p.lead.result { (summary(analysis)) }
                     (navigation(analysis))
@@ -35,6 +37,7 @@ pub fn page(analysis: &Analysis, figures: &Figures, volume: Option<&str>) -> Str
                     (robot_section(analysis, figures))
                     (modes_section(analysis, figures))
                     (counts_section(analysis))
+                    @if let Some(strips) = &figures.strips { (strips_section(strips)) }
                     @if let Some(flat) = &figures.flat { (maps_section(analysis, flat)) }
                     @if let Some(volume) = volume { (volume_section(analysis, figures, volume)) }
                     (earlier_section(analysis, figures))
@@ -55,10 +58,17 @@ fn summary(analysis: &Analysis) -> Markup {
         analysis.classes.iter().fold((0.0, 0.0), |s, c| (s.0 + c.measure, s.1 + c.undecided));
     let share = if measure + undecided > 0.0 { 100.0 * undecided / (measure + undecided) } else { 0.0 };
     html! {
-        "This robot has " strong { (bounds(count.low, count.high)) " generalized aspects" } " in "
+        @match slice_name(&analysis.fixed) {
+            Some(slice) => { "In the " (slice) " this robot has " }
+            None => { "This robot has " }
+        }
+        strong { (bounds(count.low, count.high)) " generalized aspects" } " in "
         (analysis.modes.len()) " working modes (proved). "
         "An aspect is a largest domain in which the robot can move without meeting a singularity and without changing the \
-         solution of its inverse model. Of the " (size_word(analysis)) " where aspects can be, "
+         solution of its inverse model. "
+        @if !analysis.fixed.is_empty() { "Here the robot moves within the slice, while det A is that of the whole robot: each aspect of the slice lies in \
+         one aspect of the robot, and several may lie in the same. " }
+        "Of the " (analysis.measure.name) " where aspects can be, "
         (format!("{share:.2}")) " % is undecided at this resolution"
         @if count.high.is_none() { "; the undecided cells may hide or separate further aspects, so no upper bound is proved" }
         "."
@@ -69,7 +79,11 @@ fn navigation(analysis: &Analysis) -> Markup {
     html! {
         nav aria-label="Sections" {
             a href="#robot" { "Robot" } a href="#modes" { "Working modes" } a href="#counts" { "Aspects in numbers" }
-            @if analysis.robot.dof() == 2 { a href="#maps" { "W- and Q-aspects" } } @else { a href="#space" { "Slices and 3-D view" } }
+            @match analysis.window.axes().len() {
+                3 => a href="#space" { "Slices and 3-D view" },
+                2 if has_q(analysis) => a href="#maps" { "W- and Q-aspects" },
+                _ => a href="#maps" { "W-aspects" },
+            }
             a href="#earlier" { "Definitions 5 and 6" } a href="#certified" { "What is certified" } a href="#run" { "The run" }
         }
     }
@@ -127,6 +141,23 @@ fn counts_section(analysis: &Analysis) -> Markup {
     }
 }
 
+/// Whether figures show the joint space: where it is a plane, as the poses are.
+fn has_q(analysis: &Analysis) -> bool {
+    analysis.robot.dof() == 2
+}
+
+fn strips_section(strips: &Figure) -> Markup {
+    html! {
+        section #maps {
+            h2 { "W-aspects" }
+            (figure(strips, html! {
+                "All aspects along the coordinate that varies: one strip a working mode and sign of det A. A colour and number is one aspect. Parts \
+                 shorter than a pixel are drawn a pixel long."
+            }))
+        }
+    }
+}
+
 fn maps_section(analysis: &Analysis, flat: &FlatFigures) -> Markup {
     let names: Vec<String> = analysis
         .classes
@@ -135,16 +166,18 @@ fn maps_section(analysis: &Analysis, flat: &FlatFigures) -> Markup {
         .collect();
     html! {
         section #maps {
-            h2 { "W-aspects and Q-aspects" }
-            (figure(&flat.figure_9, html! {
-                "All aspects (figure 9 of the paper): one row a working mode, det A > 0 on the left and det A < 0 on the right; in each \
-                 pair the poses (W) and their joint vectors (Q). A colour and number is one aspect, the same in W and Q. Q wraps round at ±π."
+            h2 { @if has_q(analysis) { "W-aspects and Q-aspects" } @else { "W-aspects" } }
+            (figure(&flat.overview, html! {
+                "All aspects" @if analysis.fixed.is_empty() { " (figure 9 of the paper)" }
+                ": one row a working mode, det A > 0 on the left and det A < 0 on the right"
+                @if has_q(analysis) { "; in each pair the poses (W) and their joint vectors (Q). A colour and number is one aspect, the same in W and \
+                 Q. Q wraps round at ±π." } @else { ". A colour and number is one aspect." }
             }))
             p { "One by one:" }
             (tabs("class", &names, &flat.classes, |k| {
                 let c = &analysis.classes[k];
                 html! { "Mode (" (signs(&c.mode.to_string())) "), " (crate::figure::maps::sign_text(c.det_a)) ": "
-                    (bounds(c.low, c.high)) " (certified), " (number(c.measure)) " " (measure_unit(&analysis.robot)) " proved inside, "
+                    (bounds(c.low, c.high)) " (certified), " (number(c.measure)) " " (measure_unit(analysis)) " proved inside, "
                     (number(c.undecided)) " undecided. Solid: parallel singularities, where the platform moves with locked motors; \
                     dashed: serial singularities, where a leg is stretched or folded." }
             }))
@@ -192,14 +225,15 @@ fn earlier_section(analysis: &Analysis, figures: &Figures) -> Markup {
                  direct, model. This robot has several of both, and then neither tells its solutions apart." }
             @if let Some(flat) = &figures.flat {
                 (figure(&flat.parallel, html! {
-                    "Definition 5 (figures 6 and 7 of the paper): all configurations with det A of one sign, in W and in Q. Shades count the \
+                    "Definition 5 (figures 6 and 7 of the paper): all configurations with det A of one sign, in W" @if has_q(analysis) { " and in Q" } ". Shades count the \
                      configurations over a place. More than one over a pose: the domain holds several inverse solutions and does \
                      not separate them. In W both signs share " (number(analysis.parallel_aspects.first().map_or(0.0, |e| e.overlap))) " "
-                    (measure_unit(&analysis.robot)) " (certified): there the sign of det A says nothing about where the robot is."
+                    (measure_unit(analysis)) " (certified): there the sign of det A says nothing about where the robot is."
                 }))
                 (figure(&flat.serial, html! {
-                    "Definition 6: all configurations of one working mode, in W and in Q. Two over a joint vector: the domain holds several \
-                     direct solutions and does not separate them. The grey lines within are the undecided cells along det A = 0."
+                    "Definition 6: all configurations of one working mode, in W"
+                    @if has_q(analysis) { " and in Q. Two over a joint vector: the domain holds several direct solutions and does not separate them" }
+                    ". The grey lines within are the undecided cells along det A = 0."
                 }))
             }
             div.scroll { (tables::earlier(analysis)) }
@@ -237,7 +271,8 @@ fn run_section<'a>(run: &Run, names: impl Iterator<Item = &'a str>) -> Markup {
     };
     let widths = names
         .zip(&run.resolution)
-        .map(|(n, &w)| format!("{} {}", crate::figure::survey::coordinate_name(n), number(w)));
+        .filter(|(_, width)| **width > 0.0)
+        .map(|(n, &w)| format!("{} {}", coordinate_name(n), number(w)));
     html! {
         section #run {
             h2 { "The run" }

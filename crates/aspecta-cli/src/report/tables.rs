@@ -93,12 +93,12 @@ fn reachable(r: Reachable) -> &'static str {
 /// Table 2: the numbers of generalized aspects.
 pub fn classes(analysis: &Analysis) -> Markup {
     let n = analysis.robot.dof();
-    let what = size_word(analysis);
+    let what = analysis.measure.name;
     html! {
         table {
             caption {
                 "Table 2. Generalized aspects of each working mode and sign of det A: certified bounds on their number, and \
-                 the " (what) " of their projections on the workspace in " (measure_unit(&analysis.robot)) "."
+                 the " (what) " of their projections on the workspace in " (measure_unit(analysis)) "."
             }
             thead { tr {
                 th scope="col" { "mode" }
@@ -134,7 +134,7 @@ pub fn aspects(analysis: &Analysis) -> Markup {
             }
             thead { tr {
                 th scope="col" { "no." } th scope="col" { "mode" } th scope="col" { "det A" }
-                th scope="col" { "certified " (size_word(analysis)) } th scope="col" { "pieces" }
+                th scope="col" { "certified " (analysis.measure.name) } th scope="col" { "pieces" }
                 th scope="col" { "sample pose (" (pose_names(robot)) ")" } th scope="col" { "sample joints" }
                 th scope="col" { "bounds in W" } th scope="col" { "bounds in Q" }
             } }
@@ -155,7 +155,7 @@ pub fn aspects(analysis: &Analysis) -> Markup {
 pub fn earlier(analysis: &Analysis) -> Markup {
     let rows = analysis.parallel_aspects.iter().map(|e| ("5 (parallel)", e));
     let rows = rows.chain(analysis.serial_aspects.iter().map(|e| ("6 (serial)", e)));
-    let what = size_word(analysis);
+    let what = analysis.measure.name;
     html! {
         table {
             caption {
@@ -187,21 +187,10 @@ pub fn bounds(low: usize, high: Option<usize>) -> String {
     }
 }
 
-/// `area` or `volume`.
-pub fn size_word(analysis: &Analysis) -> &'static str {
-    if analysis.robot.dof() == 2 { "area" } else { "volume" }
-}
-
 /// The unit of a measure of poses: `mm²·rad`.
-pub fn measure_unit(robot: &Robot) -> String {
-    let angles = robot.platform.coordinates().iter().filter(|c| c.angle).count();
-    let power = |unit: &str, n: usize| match n {
-        0 => None,
-        1 => Some(unit.to_owned()),
-        n => Some(format!("{unit}{}", ["²", "³"].get(n - 2).unwrap_or(&""))),
-    };
-    let factors = [power(&robot.length_unit, robot.dof() - angles), power("rad", angles)];
-    factors.into_iter().flatten().collect::<Vec<_>>().join("·")
+pub fn measure_unit(analysis: &Analysis) -> String {
+    let power = |(unit, n): &(String, usize)| format!("{unit}{}", ["", "", "²", "³"].get(*n).unwrap_or(&""));
+    analysis.measure.unit.0.iter().map(power).collect::<Vec<_>>().join("·")
 }
 
 fn pose_names(robot: &Robot) -> String {

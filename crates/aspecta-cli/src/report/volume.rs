@@ -1,8 +1,8 @@
-//! The labels of a robot with three coordinates, packed for the page's viewer (`viewer/src/volume.js`).
+//! The labels of a robot with three free coordinates, packed for the page's viewer (`viewer/src/volume.js`).
 
 use crate::figure::palette;
 use crate::figure::raster::pixels;
-use crate::figure::survey::{coordinate_name, shown_range};
+use crate::figure::survey::coordinate_name;
 use aspecta::aspect::{Analysis, Cell, DetSign};
 use aspecta::kinematics::WorkingMode;
 use base64::prelude::{BASE64_STANDARD, Engine};
@@ -47,10 +47,10 @@ pub fn json(analysis: &Analysis, cells: &[Vec<Cell>]) -> std::io::Result<String>
     let axis = |k: usize| {
         let unit = if coordinates[k].angle { "rad" } else { &analysis.robot.length_unit };
         let label = format!("{} [{unit}]", coordinate_name(coordinates[k].name));
-        VolumeAxis { label, range: shown_range(&analysis.window, k), angle: coordinates[k].angle }
+        VolumeAxis { label, range: analysis.window.ranges[k], angle: coordinates[k].angle }
     };
     let size = std::array::from_fn(|k| super::side(analysis, k).min(VOXELS));
-    let ranges: [_; 3] = std::array::from_fn(|k| shown_range(&analysis.window, k));
+    let ranges: [_; 3] = std::array::from_fn(|k| analysis.window.ranges[k]);
     let classes = analysis.classes.iter().zip(cells).map(|(class, cells)| {
         let local = |id: usize| class.aspects.iter().position(|a| a.id == id).map_or(1, |k| k + 2);
         VolumeClass {

@@ -53,7 +53,12 @@ fn check_sample(aspect: &Value, mode: &str, det_a: &str) {
 
 #[test]
 fn the_summary_has_both_tables_in_100_columns() {
-    for robot in ["five-bar --budget depth=8", "3-rrr --budget depth=5", "spherical-3-rrr --budget depth=4"] {
+    for robot in [
+        "five-bar --budget depth=8",
+        "3-rrr --budget depth=5",
+        "spherical-3-rrr --budget depth=4",
+        "3-rrr --budget depth=7 --fix phi=30deg",
+    ] {
         let text = stdout(&format!("analyze {robot}"));
         for words in
             ["Theorem 1", "Table 1", "Table 2", "Mf1", "number of generalized aspects", "Def. 5", "Def. 6"]
@@ -64,6 +69,36 @@ fn the_summary_has_both_tables_in_100_columns() {
         assert!(widest <= Some(100), "{widest:?} columns:\n{text}");
         assert!(!text.contains('\u{1b}'));
     }
+}
+
+/// `--fix`, in whatever way it is written, and what the summary and the JSON say of it.
+#[test]
+fn coordinates_are_held() {
+    let text = stdout("analyze 3-rrr --budget depth=7 --fix phi=0");
+    for words in [
+        "slice phi = 0 rad (free: x, y; det A is that of the whole robot)",
+        "(Def. 8), area in unit^2\n",
+        "aspects of the slice, certified: at least",
+    ] {
+        assert!(text.contains(words), "{words} in\n{text}");
+    }
+    let cells = text.lines().find(|line| line.contains("finest cells")).unwrap();
+    assert!(cells.matches('×').count() == 1 && !cells.contains("rad"), "{cells}");
+    assert!(!stdout("analyze five-bar --budget depth=7").contains("slice"));
+
+    let run = |fix: &str| {
+        let mut result = json(&format!("analyze 3-rrr --budget depth=5 --json --fix {fix}"));
+        result["run"]["seconds"].take();
+        result
+    };
+    let result = run("phi=30deg,y=-5");
+    let held =
+        |name: &str, value: f64, unit: &str| json!({ "coordinate": name, "value": value, "unit": unit });
+    assert_eq!(result["fixed"], json!([held("y", -5.0, "unit"), held("phi", 30f64.to_radians(), "rad")]));
+    assert_eq!(result["measure"], json!({ "name": "length", "unit": "unit" }));
+    assert_eq!(result, run("y=-5 --fix phi=30deg"));
+    assert_eq!(result, run(&format!("y=-5.0,phi={}rad", 30f64.to_radians())));
+    assert_eq!(run("phi=0.25")["fixed"], json!([held("phi", 0.25, "rad")]));
 }
 
 /// Same input, same output, whatever the threads; only the time taken differs.

@@ -93,6 +93,30 @@ fn budgets_and_threads() {
     refused("completions tcsh", &["invalid value 'tcsh'", "bash"]);
 }
 
+/// What `--fix` is given: form, coordinate, unit, value, and what is left.
+#[test]
+fn coordinates_that_cannot_be_held() {
+    for (fix, complaints) in [
+        ("phi", &["--fix: `phi` is not COORDINATE=VALUE", "x=0.5"][..]),
+        ("psi=0", &["--fix: `3-rrr` has no coordinate `psi`; it has x, y, phi"]),
+        ("z=0", &["no coordinate `z`; it has x, y, phi"]),
+        ("phi=up", &["`phi=up`: `up` is not a value of `phi`: give radians, or 30deg"]),
+        ("phi=", &["`` is not a value of `phi`"]),
+        ("x=3deg", &["`x=3deg`: `x` is a length: give a plain number"]),
+        ("phi=nan", &["`phi` cannot be held at NaN: give a finite number within ±1e7"]),
+        ("x=inf", &["`x` cannot be held at inf"]),
+        ("phi=1e300", &["`phi` cannot be held at 1e300"]),
+        ("x=100", &["`x` cannot be held at 100 unit: links, limits and window keep it from -20 to 10 unit"]),
+        ("phi=0,phi=1", &["`phi` is held twice"]),
+        ("x=1 --fix x=2", &["`x` is held twice"]),
+        ("x=0,y=0,phi=0", &["all coordinates (x, y, phi) are held: leave at least one free"]),
+    ] {
+        refused(&format!("analyze 3-rrr --fix {fix}"), complaints);
+    }
+    refused("analyze spherical-3-rrr --fix pitch=100deg", &["`pitch` cannot be held", "1.5708 rad"]);
+    refused("analyze hexa --fix z=1", &["6 degrees of freedom: aspects are computed for 2 and 3"]);
+}
+
 #[test]
 fn files_that_cannot_be_read_or_written() {
     refused("ik five-bar --file no-such-file.csv", &["cannot read `no-such-file.csv`"]);

@@ -26,7 +26,12 @@ pub fn three_rrr() -> Robot {
 
 /// The analysis at a depth.
 pub fn analysis(robot: &Robot, depth: u32) -> Analysis {
+    slice(robot, depth, &[])
+}
+
+/// The analysis of a slice.
+pub fn slice(robot: &Robot, depth: u32, fix: &[(usize, f64)]) -> Analysis {
     let budget = Budget { depth: Some(depth), ..Budget::default() };
     let control = Control { cancelled: &AtomicBool::new(false), progress: &|_| {} };
-    analyze(robot, &Options { budget }, &control).unwrap()
+    analyze(robot, &Options { budget, fix: fix.to_vec() }, &control).unwrap()
 }

@@ -3,28 +3,31 @@
 use super::ascent::{Class, merge};
 use super::components::{Components, Piece, UnionFind};
 use super::earlier::{parallel_aspects, serial_aspects};
+use super::measure::{Held, Measure};
 use super::project::{q_bounds, w_bounds};
 use super::result::*;
 use crate::kinematics::WorkingMode;
 use crate::paving::{Budget, Control, Mark, Node, Paving, Progress};
-use crate::robot::{Actuator, Leg, Robot, Unbounded};
+use crate::robot::{Actuator, Leg, Robot, SliceError};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::time::Instant;
 
 /// How an analysis is done.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
     /// How far the paving goes.
     pub budget: Budget,
+    /// Coordinates to hold (index, value), as in [`Robot::slice`]: what is analysed are the poses that have these values.
+    pub fix: Vec<(usize, f64)>,
 }
 
 /// Why a robot cannot be analysed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum AnalysisError {
-    /// The workspace has no bounds.
+    /// The workspace, or the slice of it, has no window.
     #[error(transparent)]
-    Unbounded(#[from] Unbounded),
+    Slice(#[from] SliceError),
     /// Too many degrees of freedom to be paved whole.
     #[error("robot `{robot}` has {dof} degrees of freedom: aspects are computed for 2 and 3")]
     Dimension {
@@ -32,14 +35,6 @@ pub enum AnalysisError {
         robot: String,
         /// Its degrees of freedom.
         dof: usize,
-    },
-    /// The window leaves nothing to analyse.
-    #[error("robot `{robot}`: the window and the limits leave no range for the coordinate `{coordinate}`")]
-    Empty {
-        /// Robot name.
-        robot: String,
-        /// The coordinate.
-        coordinate: &'static str,
     },
 }
 
@@ -55,18 +50,17 @@ pub enum AnalysisError {
 /// No upper bound is proved while undecided boxes are left (an aspect could hide in them): `high` is then
 /// `None`. If nothing is left undecided, G⁻ = G⁺ and the count is exact.
 ///
+/// In a slice ([`Options::fix`]) S_{s,σ} is cut by the slice; det A remains that of the whole robot. Each aspect of the slice
+/// lies in one aspect of the robot; several may lie in the same.
+///
 /// # Errors
-/// [`AnalysisError`] if the workspace is unbounded or empty, or its dimension is not 2 or 3.
+/// [`AnalysisError`] if the workspace is unbounded or empty, its dimension is not 2 or 3, or there is no such slice.
 pub fn analyze(robot: &Robot, options: &Options, control: &Control<'_>) -> Result<Analysis, AnalysisError> {
     let start = Instant::now();
     if robot.dof() > 3 {
         return Err(AnalysisError::Dimension { robot: robot.name.clone(), dof: robot.dof() });
     }
-    let window = robot.workspace_window()?;
-    if let Some(k) = window.ranges.iter().position(|r| r.0 >= r.1) {
-        let coordinate = robot.platform.coordinates()[k].name;
-        return Err(AnalysisError::Empty { robot: robot.name.clone(), coordinate });
-    }
+    let window = robot.slice(&options.fix)?;
     let modes = robot.working_modes();
     let paving = Paving::new(robot, &window, &modes, &options.budget, control);
     let keys: Vec<(usize, DetSign)> =
@@ -81,6 +75,8 @@ pub fn analyze(robot: &Robot, options: &Options, control: &Control<'_>) -> Resul
         rayon::join(|| parallel_aspects(robot, &paving), || serial_aspects(robot, &paving));
     Ok(Analysis {
         format_version: FORMAT_VERSION,
+        fixed: Held::all(robot, &window),
+        measure: Measure::over(robot, &window),
         aspects: Count { low, high, certified: high == Some(low) },
         legs: robot.leg_reports(),
         modes: modes.iter().enumerate().map(|(m, mode)| mode_report(robot, &paving, m, *mode)).collect(),

@@ -152,6 +152,8 @@ fn uphill<const D: usize, const N: usize>(
         let value = eigen.eigenvalues[k].abs().max(1e-12 * scale);
         direction += axis * (axis.dot(&gradient) / value);
     }
+    // Rounding must not lead a climb off the slice.
+    (0..N).filter(|&k| !free[k]).for_each(|k| direction[k] = 0.0);
     let gain = direction.dot(&gradient);
     (gain.is_finite() && gain > 1e-8).then_some((u.value.value, direction))
 }

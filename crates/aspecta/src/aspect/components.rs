@@ -120,17 +120,21 @@ impl Components {
 }
 
 /// Pairs of boxes of a set that may touch where the coordinates fold up: at pitch = ±π/2 roll and yaw turn about the same
-/// axis, so boxes there may touch whatever their roll and yaw.
+/// axis, so boxes there may touch whatever their roll and yaw. Where one of the two is held the other tells all poses apart.
 fn folds(robot: &Robot, paving: &Paving, sight: &impl Fn(&Node) -> Mark) -> Vec<(u32, u32)> {
-    if robot.platform != Platform::TurningBody {
+    let (roll, pitch, yaw) = (0, 1, 2);
+    let varies = |k: usize| paving.axes.contains(&k);
+    if robot.platform != Platform::TurningBody || !varies(roll) || !varies(yaw) {
         return Vec::new();
     }
     let half_turn = std::f64::consts::FRAC_PI_2;
+    let axis = paving.axes.iter().position(|&k| k == pitch);
     let mut pairs = Vec::new();
     let mut at_pole: [Option<u32>; 2] = [None; 2];
     paving.boxes_of(sight, &mut |at| {
         let (lo, hi) = paving.bounds(at);
-        for (pole, touches) in [lo[1] <= -half_turn, hi[1] >= half_turn].into_iter().enumerate() {
+        let (lo, hi) = axis.map_or(paving.window.ranges[pitch], |a| (lo[a], hi[a]));
+        for (pole, touches) in [lo <= -half_turn, hi >= half_turn].into_iter().enumerate() {
             if touches {
                 let first = *at_pole[pole].get_or_insert(at);
                 pairs.push((first, at));

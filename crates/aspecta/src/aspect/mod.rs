@@ -13,12 +13,14 @@ mod ascent;
 mod atlas;
 mod components;
 mod earlier;
+mod measure;
 mod project;
 mod result;
 mod scale;
 mod summit;
 
 pub use analyze::{AnalysisError, Options, analyze};
+pub use measure::{Held, Measure, Unit};
 pub use result::{
     Analysis, Aspect, AspectClass, Cell, Count, DetSign, EarlierAspects, EarlierDomain, FORMAT_VERSION,
     LegReport, ModeReport, Place, Reachable, Run, Sample,

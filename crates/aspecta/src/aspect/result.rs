@@ -1,5 +1,6 @@
 //! What an analysis returns: plain values that know the robot they came from.
 
+use super::measure::{Held, Measure};
 use crate::kinematics::WorkingMode;
 use crate::paving::{BoxOf, Paving, Stop};
 use crate::robot::{Robot, Window};
@@ -18,8 +19,12 @@ pub struct Analysis {
     pub format_version: u32,
     /// The robot.
     pub robot: Robot,
-    /// The box of poses that was paved; it holds the whole workspace.
+    /// The box of poses that was paved; it holds the whole workspace, or its slice.
     pub window: Window,
+    /// The coordinates that were held: empty unless a slice was analysed.
+    pub fixed: Vec<Held>,
+    /// What all measures are of, and their unit.
+    pub measure: Measure,
     /// Certified bounds on the number of generalized aspects, all modes and both signs together.
     pub aspects: Count,
     /// Theorem 1's hypothesis, leg by leg.
@@ -65,7 +70,7 @@ impl Analysis {
     }
 
     /// Where `pose` is, as class `class` (index into [`Analysis::classes`]) sees it; angles count modulo 2π. A pose on the
-    /// boundary of two cells may get the answer of either.
+    /// boundary of two cells may get the answer of either; one off the slice is outside.
     pub fn locate(&self, class: usize, pose: &[f64]) -> Place {
         let pose: Vec<f64> = pose.iter().enumerate().map(|(k, &x)| self.window.turned_in(k, x)).collect();
         let found = self.paving.find(&|node| node.of_classes(1 << class), &pose).and_then(|(node, _)| {
@@ -152,7 +157,7 @@ pub struct ModeReport {
     pub number: usize,
     /// Its signs.
     pub mode: WorkingMode,
-    /// Whether it can be reached under the limits.
+    /// Whether it can be reached under the limits (in a slice: within it).
     pub reachable: Reachable,
     /// A configuration in it, far from singularities among those found.
     pub sample: Option<Sample>,
@@ -169,9 +174,9 @@ pub struct AspectClass {
     pub low: usize,
     /// At most this many (certified), `None` if not proved.
     pub high: Option<usize>,
-    /// Certified inner area or volume: unit² or unit³ (rad instead of unit for angles).
+    /// Certified inner measure, as [`Analysis::measure`] says.
     pub measure: f64,
-    /// Area or volume of the cells in which membership is undecided.
+    /// Measure of the cells in which membership is undecided.
     pub undecided: f64,
     /// One entry for each of the `low` proved aspects, largest first.
     pub aspects: Vec<Aspect>,
@@ -182,7 +187,7 @@ pub struct AspectClass {
 pub struct Aspect {
     /// Number within the whole analysis, from 1.
     pub id: usize,
-    /// Certified inner area or volume.
+    /// Certified inner measure.
     pub measure: f64,
     /// In how many certified connected pieces its inner cells fall: 1 if all are proved connected; k > 1
     /// leaves open whether these are one aspect or up to k.
@@ -235,7 +240,7 @@ pub struct Run {
     pub boxes: u64,
     /// Finest subdivision: cells are window / 2^depth.
     pub depth: u32,
-    /// Width of the finest cells, per coordinate.
+    /// Width of the finest cells, per coordinate; 0 where it is held.
     pub resolution: Vec<f64>,
     /// Why the run ended.
     pub stop: Stop,
@@ -246,7 +251,7 @@ pub struct Run {
 /// A cell of the paving as one class sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cell {
-    /// Lower corner (unused coordinates 0).
+    /// Lower corner in the coordinates that vary (unused entries 0).
     pub lo: [f64; 3],
     /// Upper corner.
     pub hi: [f64; 3],

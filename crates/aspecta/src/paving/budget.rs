@@ -28,15 +28,19 @@ pub const PAVING_SHARE: f64 = 0.4;
 
 impl Budget {
     /// The depth at which this budget ends in `window`: the one asked for or that of the resolution, whichever is
-    /// met first; 11 in the plane and 8 in space (a few seconds of work) if nothing is asked for at all, three levels more if only
-    /// time or boxes are given.
+    /// met first; 16, 11 or 8 where 1, 2 or 3 coordinates vary (a few seconds of work) if nothing is asked for at all, some
+    /// levels more if only time or boxes are given.
     pub(super) fn depth_in(&self, window: &Window) -> u32 {
         let lengths = window.ranges.iter().zip(&window.angles).filter(|(_, angle)| !**angle);
         let widest = lengths.map(|(r, _)| r.1 - r.0).fold(0.0, f64::max);
         // A robot without lengths has no resolution to reach.
         let resolution = self.resolution.filter(|_| widest > 0.0);
         let finest = resolution.map(|r| (widest / r).log2().ceil().max(1.0) as u32);
-        let (usual, deep) = if window.axes().len() == 2 { (11, 14) } else { (8, 11) };
+        let (usual, deep) = match window.axes().len() {
+            1 => (16, MAX_DEPTH),
+            2 => (11, 14),
+            _ => (8, 11),
+        };
         let open = self.seconds.is_some() || self.boxes.is_some();
         let asked = self.depth.into_iter().chain(finest).min();
         asked.unwrap_or(if open { deep } else { usual }).clamp(1, MAX_DEPTH)

@@ -69,7 +69,7 @@ impl Node {
 /// A box in pose coordinates: lower and upper corner.
 pub type BoxOf = ([f64; 3], [f64; 3]);
 
-/// A window cut into boxes: a tree whose every node has 2^M children or none, M = 2 or 3 being the number of
+/// A window cut into boxes: a tree whose every node has 2^M children or none, M = 1, 2 or 3 being the number of
 /// coordinates that vary.
 #[derive(Clone, Debug)]
 pub struct Paving {
@@ -102,7 +102,7 @@ impl Paving {
         std::cmp::min((self.depth_of(a), a), (self.depth_of(b), b)).1
     }
 
-    /// Area or volume of a box of depth `depth`.
+    /// Length, area or volume of a box of depth `depth`, over the coordinates that vary.
     pub fn measure(&self, depth: u32) -> f64 {
         let whole: f64 =
             self.axes.iter().map(|&k| self.window.ranges[k].1 - self.window.ranges[k].0).product();
@@ -155,11 +155,15 @@ impl Paving {
     }
 
     /// The box (as in [`Paving::boxes_of`], or one outside the set) that holds the pose, and whether the pose lies in
-    /// it by more than rounding, so that it surely holds it. `None` outside the window.
+    /// it by more than rounding, so that it surely holds it. `None` outside the window, and off the slice if
+    /// coordinates are held.
     pub fn find(&self, sight: &impl Fn(&Node) -> Mark, pose: &[f64]) -> Option<(u32, bool)> {
         let mut unit = [0.0; 3];
-        for (a, k) in self.axes.iter().copied().enumerate() {
-            unit[a] = self.window.fraction(k, pose[k])?;
+        for (k, &x) in pose.iter().enumerate() {
+            let fraction = self.window.fraction(k, x)?;
+            if let Some(a) = self.axes.iter().position(|&axis| axis == k) {
+                unit[a] = fraction;
+            }
         }
         let unit = &unit[..self.axes.len()];
         let (mut at, mut depth) = (0, 0);
@@ -199,16 +203,13 @@ impl Window {
         lo + (hi - lo) * part
     }
 
-    /// `x`, or, if coordinate k is an angle that lies in the window but for full turns, the angle in the window.
-    pub fn turned_in(&self, k: usize, x: f64) -> f64 {
-        let (lo, hi) = self.ranges[k];
-        let turned = lo + (x - lo).rem_euclid(std::f64::consts::TAU);
-        if self.angles[k] && !(lo..=hi).contains(&x) && turned <= hi { turned } else { x }
-    }
-
-    /// Where in the range of coordinate k the value lies, in [0, 1]; `None` if outside.
+    /// Where in the range of coordinate k the value lies, in [0, 1]; `None` if outside. A coordinate that is held has
+    /// one value, whose place is 0.
     pub fn fraction(&self, k: usize, x: f64) -> Option<f64> {
         let (lo, hi) = self.ranges[k];
+        if lo == hi {
+            return (x == lo).then_some(0.0);
+        }
         let x = if self.glued[k] { lo + (x - lo).rem_euclid(std::f64::consts::TAU) } else { x };
         (lo <= x && x <= hi).then(|| (x - lo) / (hi - lo))
     }

@@ -9,11 +9,13 @@ mod file;
 mod frame;
 mod leg;
 mod platform;
+mod slice;
 mod window;
 
 pub use file::{FileError, Mistake, Problem};
 pub use leg::{Actuator, BASE_FRAME, Frame, Leg, Limit, point};
 pub use platform::{Coordinate, Platform};
+pub use slice::SliceError;
 pub use window::{Unbounded, Window};
 
 use serde::{Deserialize, Serialize};

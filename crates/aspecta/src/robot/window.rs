@@ -3,12 +3,13 @@
 use super::{Actuator, Leg, Platform, Robot};
 use crate::num::Interval;
 use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
 
 /// A box of poses that holds every pose the robot can take, as proved from its link lengths, cut by
 /// the window the user may have set.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Window {
-    /// Range of each coordinate; (−π, π) rounded outward for a full turn.
+    /// Range of each coordinate; (−π, π) rounded outward for a full turn, (v, v) for a coordinate held at v.
     pub ranges: Vec<(f64, f64)>,
     /// Which coordinates close up on themselves (a full turn).
     pub glued: Vec<bool>,
@@ -41,28 +42,32 @@ impl Robot {
     /// # Errors
     /// [`Unbounded`] if some coordinate has no bound.
     pub fn workspace_window(&self) -> Result<Window, Unbounded> {
-        let coordinates = self.platform.coordinates();
-        let mut window = Window { ranges: vec![], glued: vec![], angles: vec![], cut: vec![] };
-        for (k, c) in coordinates.iter().enumerate() {
-            let natural = if c.angle { angle_range(c.periodic) } else { self.length_reach(k) };
-            // A range of a full turn is no limit.
-            let asked =
-                self.window[k].filter(|r| !(c.periodic && r.1 - r.0 >= std::f64::consts::TAU - 1e-12));
-            let range = match asked {
-                Some((lo, hi)) if !c.angle => (natural.0.max(lo), natural.1.min(hi)),
-                Some(range) => range,
-                None => natural,
-            };
-            if !(range.0.is_finite() && range.1.is_finite()) {
-                return Err(Unbounded { robot: self.name.clone(), coordinate: c.name });
-            }
-            window.ranges.push(range);
-            window.glued.push(c.periodic && asked.is_none());
-            let cuts = |inside: bool| asked.is_some() && (c.periodic || inside);
-            window.cut.push((cuts(range.0 > natural.0), cuts(range.1 < natural.1)));
-            window.angles.push(c.angle);
+        let mut window = Window::default();
+        for k in 0..self.dof() {
+            window.push(self, k);
+            window.check_bounded(self, k)?;
         }
         Ok(window)
+    }
+
+    /// The extent of coordinate `k`, infinite where nothing bounds it.
+    fn extent(&self, k: usize) -> Extent {
+        let c = self.platform.coordinates()[k];
+        let natural = if c.angle { angle_range(c.periodic) } else { self.length_reach(k) };
+        // A range of a full turn is no limit.
+        let asked = self.window[k].filter(|r| !(c.periodic && r.1 - r.0 >= TAU - 1e-12));
+        let range = match asked {
+            Some((lo, hi)) if !c.angle => (natural.0.max(lo), natural.1.min(hi)),
+            Some(range) => range,
+            None => natural,
+        };
+        let cuts = |inside: bool| asked.is_some() && (c.periodic || inside);
+        Extent {
+            range,
+            glued: c.periodic && asked.is_none(),
+            // The natural ends of a pitch fold back into the range; those of a full turn are one.
+            cut: (cuts(range.0 > natural.0), cuts(range.1 < natural.1)),
+        }
     }
 
     /// Bounds of translation `k` from all legs.
@@ -73,6 +78,53 @@ impl Robot {
             Interval { lo: r.lo.max(lo), hi: r.hi.min(hi) }
         });
         (range.lo, range.hi)
+    }
+}
+
+/// How far one coordinate goes: see [`Window`].
+struct Extent {
+    range: (f64, f64),
+    glued: bool,
+    cut: (bool, bool),
+}
+
+impl Window {
+    /// Appends coordinate `k`, which may have an infinite or an empty range.
+    pub(super) fn push(&mut self, robot: &Robot, k: usize) {
+        let Extent { range, glued, cut } = robot.extent(k);
+        self.ranges.push(range);
+        self.glued.push(glued);
+        self.cut.push(cut);
+        self.angles.push(robot.platform.coordinates()[k].angle);
+    }
+
+    /// [`Unbounded`] if the range of coordinate `k` is infinite.
+    pub(super) fn check_bounded(&self, robot: &Robot, k: usize) -> Result<(), Unbounded> {
+        let (lo, hi) = self.ranges[k];
+        let unbounded =
+            || Unbounded { robot: robot.name.clone(), coordinate: robot.platform.coordinates()[k].name };
+        if lo.is_finite() && hi.is_finite() { Ok(()) } else { Err(unbounded()) }
+    }
+
+    /// The coordinates that are held at a value, and the values (see [`Robot::slice`]).
+    pub fn held(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        self.ranges.iter().enumerate().filter(|(_, r)| r.0 == r.1).map(|(k, r)| (k, r.0))
+    }
+
+    /// `x`, or, if coordinate k is an angle that lies in the window but for full turns, the angle in the window. A
+    /// held angle is met if x is a full turn away from it up to the rounding of either.
+    pub fn turned_in(&self, k: usize, x: f64) -> f64 {
+        let (lo, hi) = self.ranges[k];
+        if !self.angles[k] || (lo..=hi).contains(&x) {
+            return x;
+        }
+        if lo == hi {
+            let turns = ((x - lo) / TAU).round();
+            let rounding = 4.0 * f64::EPSILON * x.abs().max(lo.abs());
+            return if turns != 0.0 && (x - lo - turns * TAU).abs() <= rounding { lo } else { x };
+        }
+        let turned = lo + (x - lo).rem_euclid(TAU);
+        if turned <= hi { turned } else { x }
     }
 }
 
