@@ -12,11 +12,13 @@ mod analyze;
 mod ascent;
 mod atlas;
 mod components;
+mod count;
 mod earlier;
 mod measure;
 mod project;
 mod result;
 mod scale;
+mod search;
 mod summit;
 
 pub use analyze::{AnalysisError, Options, analyze};
