@@ -4,6 +4,7 @@ use super::ascent::Class;
 use super::atlas::{Atlas, Leaf};
 use super::components::{Components, Piece};
 use super::count::{Counted, Group};
+use super::doubt::doubts;
 use super::earlier::{parallel_aspects, serial_aspects};
 use super::measure::{Held, Measure};
 use super::project::{q_bounds, w_bounds};
@@ -70,6 +71,7 @@ pub fn analyze(robot: &Robot, options: &Options, control: &Control<'_>) -> Resul
     let paving = &atlas.sheets[0];
     let found: Vec<Found> =
         counted.par_iter().map(|(class, counted)| Found::new(&atlas, *class, counted)).collect();
+    let doubts = counted.iter().flat_map(|(class, counted)| doubts(&atlas, *class, counted)).collect();
     let (classes, labels) = number(found);
     let low = classes.iter().map(|c| c.low).sum();
     let high = classes.iter().map(|c| c.high).sum::<Option<usize>>();
@@ -84,6 +86,7 @@ pub fn analyze(robot: &Robot, options: &Options, control: &Control<'_>) -> Resul
         legs: robot.leg_reports(),
         modes: modes.iter().enumerate().map(|(m, mode)| mode_report(robot, paving, m, *mode)).collect(),
         classes,
+        doubts,
         parallel_aspects: parallel,
         serial_aspects: serial,
         run: Run {

@@ -4,7 +4,7 @@ use super::ascent::{Class, Join, merge};
 use super::atlas::{Atlas, Leaf};
 use super::components::{Components, UnionFind};
 use crate::paving::{ClassSet, Control, Mark, Node};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 /// The components of a class and what is proved of their number.
 pub(super) struct Counted {
@@ -125,7 +125,7 @@ fn fertile(
 }
 
 /// The undecided boxes at which the neighbourhoods of unjoined pieces meet: G⁺ is flooded from all pieces of a component at
-/// once, a step at a time, and the boxes are returned in which two floods run into each other.
+/// once, and the boxes are returned in which two floods run into each other, and those of the shortest way between them.
 fn between(
     atlas: &Atlas<'_>,
     sight: &impl Fn(&Node) -> Mark,
@@ -156,32 +156,54 @@ fn between(
             neighbours.entry(b).or_default().push(a);
         }
     }
-    let mut flood = BTreeMap::<u32, u32>::new();
+    let mut flood = BTreeMap::<u32, Reached>::new();
     for (&p, &i) in &first {
         if let Some(p) = label(p) {
-            flood.insert(vertex.root(i), joined.root(p));
+            let (root, colour) = (vertex.root(i), joined.root(p));
+            flood.insert(root, Reached { colour, distance: 0, from: root });
         }
     }
-    let mut front: Vec<u32> = flood.keys().copied().collect();
-    while !front.is_empty() {
-        let mut next = Vec::new();
-        for v in front {
-            let colour = flood[&v];
-            for &w in neighbours.get(&v).map_or(&[][..], Vec::as_slice) {
-                flood.entry(w).or_insert_with(|| {
-                    next.push(w);
-                    colour
-                });
+    // Breadth first, but boxes proved inside cost nothing to cross.
+    let mut front: VecDeque<u32> = flood.keys().copied().collect();
+    while let Some(v) = front.pop_front() {
+        let Reached { colour, distance, .. } = flood[&v];
+        for &w in neighbours.get(&v).map_or(&[][..], Vec::as_slice) {
+            let free = piece(w).is_some();
+            let reached = Reached { colour, distance: distance + u32::from(!free), from: v };
+            if flood.get(&w).is_none_or(|known| reached.distance < known.distance) {
+                flood.insert(w, reached);
+                if free { front.push_front(w) } else { front.push_back(w) }
             }
         }
-        front = next;
     }
-    let mut met = BTreeSet::new();
+    let mut met = BTreeSet::<u32>::new();
+    let mut shortest = BTreeMap::<(u32, u32), (u32, u32, u32)>::new();
     for &(i, j) in &links {
         let (a, b) = (vertex.root(i), vertex.root(j));
-        if flood.get(&a) != flood.get(&b) {
-            met.extend([i, j].into_iter().filter(|&k| piece(k).is_none()).map(|k| components.boxes[k as usize]));
+        let (Some(from), Some(to)) = (flood.get(&a), flood.get(&b)) else { continue };
+        if from.colour != to.colour {
+            met.extend([i, j]);
+            let pair = (from.colour.min(to.colour), from.colour.max(to.colour));
+            let way = (from.distance + to.distance, a, b);
+            shortest.entry(pair).and_modify(|least| *least = way.min(*least)).or_insert(way);
         }
     }
-    met.into_iter().collect()
+    // The shortest way from one to the other: if they are one, it leads there.
+    for (_, a, b) in shortest.into_values() {
+        for mut v in [a, b] {
+            while flood[&v].from != v {
+                met.insert(v);
+                v = flood[&v].from;
+            }
+        }
+    }
+    met.into_iter().filter(|&i| piece(i).is_none()).map(|i| components.boxes[i as usize]).collect()
+}
+
+/// How a box was reached by a flood.
+#[derive(Clone, Copy)]
+struct Reached {
+    colour: u32,
+    distance: u32,
+    from: u32,
 }

@@ -13,10 +13,12 @@ mod ascent;
 mod atlas;
 mod components;
 mod count;
+mod doubt;
 mod earlier;
 mod measure;
 mod project;
 mod result;
+mod saddle;
 mod scale;
 mod search;
 mod summit;
@@ -24,6 +26,6 @@ mod summit;
 pub use analyze::{AnalysisError, Options, analyze};
 pub use measure::{Held, Measure, Unit};
 pub use result::{
-    Analysis, Aspect, AspectClass, Cell, Count, DetSign, EarlierAspects, EarlierDomain, FORMAT_VERSION,
+    Analysis, Aspect, AspectClass, Cell, Count, DetSign, Doubt, DoubtKind, EarlierAspects, EarlierDomain, FORMAT_VERSION,
     LegReport, ModeReport, Place, Reachable, Run, Sample,
 };

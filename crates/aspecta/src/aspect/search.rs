@@ -4,7 +4,7 @@ use super::ascent::Class;
 use super::atlas::{Atlas, Leaf, Limits};
 use super::count::{Counted, count};
 use crate::kinematics::WorkingMode;
-use crate::paving::{Budget, Control, MAX_BOXES, MAX_DEPTH, Progress, Stop};
+use crate::paving::{Budget, Control, MAX_BOXES, Progress, Stop};
 use crate::robot::{Robot, Window};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -30,7 +30,7 @@ impl<'a> Search<'a> {
         let start = Instant::now();
         let late = || budget.seconds.is_some_and(|s| start.elapsed().as_secs_f64() > SHARE * s);
         let limits = Limits {
-            depth: budget.finest(window).unwrap_or(MAX_DEPTH),
+            depth: budget.finest(window).unwrap_or(DEEPEST),
             boxes: budget.boxes.unwrap_or(MAX_BOXES).min(MAX_BOXES),
             late: &late,
         };
@@ -60,16 +60,20 @@ impl<'a> Search<'a> {
             (control.progress)(Progress { stage: "joining pieces", done: exact, total: counted.len() as u64 });
             let fresh = atlas.split(&split, control);
             complete &= atlas.uncover(fresh, &limits, control);
+            if std::env::var("TRACE").is_ok() {
+                for &(sheet, node) in split.iter().take(4) { eprintln!("   sheet {sheet} depth {} {:?} classes {:016b}", atlas.sheets[sheet].depth_of(node), atlas.sheets[sheet].bounds(node), atlas.sheets[sheet].nodes[node as usize].undecided); }
+                eprintln!("{:?} split {} boxes {} exact {:?}", start.elapsed(), split.len(), atlas.boxes(), counted.iter().map(|(_, c)| (c.found.len(), c.high())).collect::<Vec<_>>());
+            }
             counted = counted
                 .into_par_iter()
-                .map(|(class, _)| (class, count(&atlas, class, control)))
+                .map(|(class, old)| if old.is_exact() { (class, old) } else { (class, count(&atlas, class, control)) })
                 .collect();
         }
         let stop = match () {
             () if counted.iter().all(|(_, c)| c.is_exact()) => Stop::Exact,
             () if control.is_cancelled() => Stop::Cancelled,
             () if late() || atlas.sheets[0].stop == Stop::Time => Stop::Time,
-            () if complete || limits.depth < MAX_DEPTH => Stop::Resolution,
+            () if complete || limits.depth < DEEPEST => Stop::Resolution,
             () => Stop::Boxes,
         };
         Self { atlas, counted, stop }
@@ -78,3 +82,7 @@ impl<'a> Search<'a> {
 
 /// The share of a time budget after which the search ends; the last count and the report take the rest.
 const SHARE: f64 = 0.7;
+
+/// The depth at which a search ends if the budget names none: boxes are then some 10⁻⁸ of the window wide, still a million times
+/// the spacing of doubles.
+const DEEPEST: u32 = 26;

@@ -23,6 +23,7 @@
 //!
 //! n in all, along which everything is bounded with h_j ∈ [0, h̄_j] as a variable of its own.
 
+use super::saddle::no_local_maximum;
 use super::scale::Scale;
 use crate::kinematics::WorkingMode;
 use crate::kinematics::limits::{margin, unit};
@@ -68,8 +69,17 @@ pub(super) fn summitless<const D: usize, const N: usize, const M: usize>(
         }
         (0..LANES).for_each(|l| proved[l] |= held[l]);
     }
+    for (l, &(node, _)) in boxes.iter().enumerate().filter(|(_, b)| u32::from(paving.nodes[b.0 as usize].depth) >= DEEP) {
+        let left = asked[l] & !proved[l];
+        for (m, &mode) in paving.modes.iter().enumerate().filter(|(m, _)| left >> (2 * m) & 3 != 0) {
+            proved[l] |= left & view.saddles::<D>(robot, scale, node, l, (m, mode));
+        }
+    }
     proved
 }
+
+/// From this depth on the second-order test is tried: double points of det A = 0 are rare, and it costs more.
+const DEEP: u32 = 9;
 
 /// The ranges of h, those of the marked legs cut into parts, in all combinations.
 fn parts<const N: usize>(heights: &[Pack; N], cut: &[bool; N]) -> impl Iterator<Item = [Pack; N]> {
@@ -321,6 +331,29 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
             }
         }
         proved
+    }
+
+    /// The classes of a mode without a summit in one box by the second-order test ([`no_local_maximum`]).
+    fn saddles<const SPACE: usize>(
+        &self,
+        robot: &Robot,
+        scale: &Scale,
+        node: u32,
+        lane: usize,
+        (m, mode): (usize, WorkingMode),
+    ) -> ClassSet {
+        let part = self.part(robot, &self.heights);
+        let Some(frame) = Frame::new(self, &part, lane, [false; N]) else { return 0 };
+        let least = self
+            .constraints(robot, scale, &part, &frame, mode, lane)
+            .iter()
+            .fold(f64::INFINITY, |least, g| least.min(g.value.lo));
+        let det = self.determinant(&part, mode).growth(&frame, mode, scale, lane).value;
+        if !(det.magnitude() < least) {
+            return 0;
+        }
+        let [plus, minus] = no_local_maximum::<SPACE, N, M>(robot, self.paving, node, mode);
+        (ClassSet::from(plus) | ClassSet::from(minus) << 1) << (2 * m)
     }
 
     /// Frames to try. A frame is valid whichever legs are counted as singular, as long as all are that can be; it is mostly better
