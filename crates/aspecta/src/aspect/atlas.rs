@@ -83,6 +83,16 @@ impl<'a> Atlas<'a> {
         }
     }
 
+    /// The children of boxes in which one of some classes is undecided.
+    pub(super) fn undecided_children(&self, boxes: &[Leaf], classes: ClassSet) -> Vec<Leaf> {
+        let children = |&(s, at): &Leaf| self.sheets[s].children(at).map(move |child| (s, child));
+        let undecided = |&(s, at): &Leaf| {
+            let node = &self.sheets[s].nodes[at as usize];
+            node.undecided & classes != 0 && node.first_child == 0
+        };
+        boxes.iter().flat_map(children).filter(undecided).collect()
+    }
+
     /// Boxes classified so far.
     pub(super) fn boxes(&self) -> u64 {
         self.sheets.iter().map(|paving| paving.boxes).sum()

@@ -17,7 +17,7 @@ pub(super) fn doubts(atlas: &Atlas<'_>, class: Class, counted: &Counted) -> Vec<
     }
     let hidden: Vec<Leaf> =
         counted.components.boxes.iter().copied().filter(|&leaf| atlas.open(leaf) & class.bit != 0).collect();
-    [(DoubtKind::Hidden, &hidden), (DoubtKind::Unjoined, &counted.between)]
+    [(DoubtKind::Hidden, &hidden), (DoubtKind::Unjoined, &counted.between.front)]
         .into_iter()
         .filter_map(|(kind, boxes)| doubt(atlas, class, kind, boxes))
         .collect()
