@@ -10,11 +10,11 @@ use crate::robot::{Robot, Window};
 use rayon::prelude::*;
 
 /// A leaf: sheet and node.
-pub(super) type Leaf = (usize, u32);
+pub(crate) type Leaf = (usize, u32);
 
 /// The pavings of all charts. Sheet 0 is in pose coordinates; sheet i + 1 is that of fold i and replaces the boxes of
 /// sheet 0 that it covers.
-pub(super) struct Atlas<'a> {
+pub(crate) struct Atlas<'a> {
     pub robot: &'a Robot,
     pub folds: Vec<Fold>,
     pub sheets: Vec<Paving>,
@@ -22,7 +22,7 @@ pub(super) struct Atlas<'a> {
 }
 
 impl<'a> Atlas<'a> {
-    pub(super) fn new(
+    pub(crate) fn new(
         robot: &'a Robot,
         window: &Window,
         modes: &[WorkingMode],
@@ -40,20 +40,20 @@ impl<'a> Atlas<'a> {
     }
 
     /// Classes of which nothing is settled in a box: it is neither inside nor outside, and might hide a whole aspect.
-    pub(super) fn open(&self, (sheet, node): Leaf) -> ClassSet {
+    pub(crate) fn open(&self, (sheet, node): Leaf) -> ClassSet {
         let node = &self.sheets[sheet].nodes[node as usize];
         if node.covered || node.first_child != 0 { 0 } else { node.undecided & !node.summitless }
     }
 
     /// All leaves in which something might hide.
-    pub(super) fn open_leaves(&self) -> Vec<Leaf> {
+    pub(crate) fn open_leaves(&self) -> Vec<Leaf> {
         let all =
             self.sheets.iter().enumerate().flat_map(|(s, p)| (0..p.nodes.len() as u32).map(move |n| (s, n)));
         all.filter(|&leaf| self.open(leaf) != 0).collect()
     }
 
     /// Looks for summits in leaves, and returns those in which some might be.
-    pub(super) fn survey(&mut self, leaves: &[Leaf]) -> Vec<Leaf> {
+    pub(crate) fn survey(&mut self, leaves: &[Leaf]) -> Vec<Leaf> {
         for sheet in 0..self.sheets.len() {
             let asked: Vec<(u32, ClassSet)> = leaves
                 .iter()
@@ -70,7 +70,7 @@ impl<'a> Atlas<'a> {
     }
 
     /// Of the classes asked of each box of a sheet, those that surely have no summit in it.
-    pub(super) fn summitless(&self, sheet: usize, asked: &[(u32, ClassSet)]) -> Vec<ClassSet> {
+    pub(crate) fn summitless(&self, sheet: usize, asked: &[(u32, ClassSet)]) -> Vec<ClassSet> {
         let paving = &self.sheets[sheet];
         let eight = |boxes: &[(u32, ClassSet)]| {
             let (robot, scale) = (self.robot, &self.scale);
@@ -81,7 +81,7 @@ impl<'a> Atlas<'a> {
     }
 
     /// Splits leaves; returns their children.
-    pub(super) fn split(&mut self, leaves: &[Leaf], control: &Control<'_>) -> Vec<Leaf> {
+    pub(crate) fn split(&mut self, leaves: &[Leaf], control: &Control<'_>) -> Vec<Leaf> {
         let mut children = Vec::new();
         for (s, sheet) in self.sheets.iter_mut().enumerate() {
             let here: Vec<u32> = leaves.iter().filter(|l| l.0 == s).map(|l| l.1).collect();

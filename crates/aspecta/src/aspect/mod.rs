@@ -10,7 +10,7 @@
 
 mod analyze;
 mod ascent;
-mod atlas;
+pub(crate) mod atlas;
 mod components;
 mod earlier;
 mod measure;
@@ -21,6 +21,7 @@ mod summit;
 
 pub use analyze::{AnalysisError, Options, analyze};
 pub use measure::{Held, Measure, Unit};
+pub use scale::Scale;
 pub use result::{
     Analysis, Aspect, AspectClass, Cell, Count, DetSign, EarlierAspects, EarlierDomain, FORMAT_VERSION,
     LegReport, ModeReport, Place, Reachable, Run, Sample,
