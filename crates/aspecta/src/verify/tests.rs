@@ -1,6 +1,7 @@
 //! Certificates that hold, and certificates with planted faults.
 
 use super::*;
+use super::view::View;
 use crate::aspect::atlas::{Atlas, Leaf};
 use crate::certificate::Claim;
 use crate::paving::Budget;
@@ -58,4 +59,40 @@ fn experiment() {
         println!("{class:?}");
     }
     println!("{} bytes", certificate.to_json().unwrap().len());
+}
+
+#[test]
+fn debug_summit() {
+    use crate::kinematics::chart::{Chart, folds};
+    let robot = catalogue::find("3-rrr").unwrap();
+    let window = robot.slice(&[]).unwrap();
+    let modes = robot.working_modes();
+    let scale = crate::aspect::Scale::of(&robot, &window, &modes);
+    let chart = Chart::Fold(folds(&robot, &window)[1].clone());
+    let setting = Setting { robot: &robot, chart: &chart, window: charts::window_of(&chart, &window), scale: &scale };
+    for (class, y) in [
+        (15, [Interval::new(1.472622, 1.570796), Interval::new(-0.234375, -0.225), Interval::new(-0.490874, -0.392699)]),
+        (8, [Interval::new(-2.552544, -2.454369), Interval::new(0.243750, 0.253125), Interval::new(0.981748, 1.079922)]),
+    ] {
+        let mut open = vec![(y, 0)];
+        let mut counts = vec![0; 60];
+        let mut deepest = 0;
+        let mut last = None;
+        for _ in 0..60000 {
+            let Some((y, depth)) = open.pop() else { println!("PROVED"); break };
+            let view = View::new(&setting, y);
+            let mode = modes[class / 2];
+            if view.existence(mode) == view::Existence::Nowhere { continue; }
+            if (view.determinant(mode) * Interval::point(claims::sign_of(class))).hi <= 0.0 { continue; }
+            if view.is_summitless(mode, claims::sign_of(class)) { continue; }
+            counts[depth] += 1;
+            if depth > deepest { deepest = depth; last = Some(y); }
+            if depth > 30 { continue; }
+            let (a, b) = claims::halves(&setting, &y);
+            open.extend([(a, depth + 1), (b, depth + 1)]);
+        }
+        println!("class {class} counts {counts:?} {last:?}");
+        let y = last.unwrap();
+        View::new(&setting, y).explain(modes[class / 2], claims::sign_of(class));
+    }
 }

@@ -289,6 +289,21 @@ impl<'a> View<'a> {
         })
     }
 
+    #[cfg(test)]
+    pub(super) fn explain(&self, mode: WorkingMode, sign: f64) {
+        let legs = self.legs(mode).unwrap();
+        let constraints = self.constraints(mode, sign, &legs);
+        for (j, l) in legs.iter().enumerate() { if let Some(l) = l { println!("leg {j} q {} loose {} slope {} reach {}", l.q, l.loose, l.slope, self.reach[j]); } }
+        for loose in self.choices_of_loose(&legs) {
+            println!("loose {loose:?}");
+            let Some(v) = self.velocities(&legs, &loose) else { continue };
+            for c in &constraints {
+                let g: Vec<Interval> = v.iter().map(|v| (0..6).fold(ZERO, |sum, k| sum + c.gradient[k] * v[k])).collect();
+                println!("  value {} growth {:?}", c.value, g.iter().map(|g| format!("{:.4e},{:.4e}", g.lo, g.hi)).collect::<Vec<_>>());
+            }
+        }
+    }
+
     /// The functions whose least is P, scaled, and gradients of increasing functions of them.
     fn constraints(&self, mode: WorkingMode, sign: f64, legs: &[Option<&Posture>; MOST]) -> Vec<Constraint> {
         let scale = self.setting.scale;
