@@ -52,8 +52,8 @@ fn barriers<const D: usize, const N: usize>(robot: &Robot, mode: WorkingMode, po
         let arm = placement.arm(leg);
         let span = placement.span(leg, &arm);
         let closure = eliminate(&leg.actuator, &span);
-        let at = LegAt { leg, span, closure, h: closure.reach.max(0.0).sqrt() };
-        let sh = f64::from(mode.sign(j)) * at.h;
+        let at = LegAt { leg, span, closure, crank: None };
+        let sh = f64::from(mode.sign(j)) * closure.reach.max(0.0).sqrt();
         let gradient: [f64; D] = std::array::from_fn(|k| closure.fixed[k] + sh * closure.swing[k]);
         rows[j] = wrench(robot.platform, &out_of_frame(leg, &gradient), &arm);
         if leg.actuator.postures() == 2 {

@@ -37,7 +37,7 @@ fn certify(robot: &Robot, fix: &[(usize, f64)], coarse: u32, fine: u32) -> Certi
         Certificate::new(robot, &atlas.scale, &atlas.sheets, vec![], vec![], nothing);
     let verdict = checked(&certificate);
     for fault in &verdict.faults {
-        println!("{fault}");
+        println!("{}", fault.in_words(&certificate.modes));
     }
     assert!(verdict.is_verified());
     certificate.claims = verdict.classes.iter().map(|c| c.proved).collect();

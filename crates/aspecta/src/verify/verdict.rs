@@ -3,7 +3,6 @@
 use crate::certificate::{Certificate, Claim, Entry};
 use crate::kinematics::WorkingMode;
 use serde::Serialize;
-use std::fmt;
 
 /// The outcome of a check.
 #[derive(Clone, Debug, Serialize)]
@@ -79,20 +78,20 @@ impl Fault {
     pub(super) fn of_class(class: usize, reason: String) -> Self {
         Self { sheet: None, leaf: None, class: Some(class), bounds: Vec::new(), reason }
     }
-}
 
-impl fmt::Display for Fault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let parts = [("sheet", self.sheet), ("leaf", self.leaf), ("class", self.class)];
-        let named: Vec<String> =
-            parts.iter().filter_map(|(name, k)| k.map(|k| format!("{name} {k}"))).collect();
-        write!(f, "{}: {}", named.join(", "), self.reason)?;
-        if !self.bounds.is_empty() {
-            let ranges: Vec<String> =
-                self.bounds.iter().map(|(lo, hi)| format!("[{lo:.6}, {hi:.6}]")).collect();
-            write!(f, ", in {}", ranges.join(" × "))?;
-        }
-        Ok(())
+    /// A line for people; `modes` are those of the certificate.
+    pub fn in_words(&self, modes: &[WorkingMode]) -> String {
+        let class = self.class.and_then(|class| Some((modes.get(class / 2)?, class)));
+        let class = class.map(|(mode, class)| {
+            format!("class {class} ({mode}, det A {} 0)", if class % 2 == 0 { '>' } else { '<' })
+        });
+        let named = |name: &str, k: Option<usize>| k.map(|k| format!("{name} {k}"));
+        let parts: Vec<String> =
+            [named("sheet", self.sheet), named("leaf", self.leaf), class].into_iter().flatten().collect();
+        let ranges: Vec<String> =
+            self.bounds.iter().map(|(lo, hi)| format!("[{lo:.6}, {hi:.6}]")).collect();
+        let place = if ranges.is_empty() { String::new() } else { format!(", in {}", ranges.join(" × ")) };
+        format!("{}: {}{place}", parts.join(", "), self.reason)
     }
 }
 
