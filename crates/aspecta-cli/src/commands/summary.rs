@@ -168,6 +168,7 @@ fn earlier(name: &str, sets: &[EarlierAspects], measure: &Measure) -> String {
 fn run(analysis: &Analysis) -> String {
     let run = &analysis.run;
     let ended = match run.stop {
+        Stop::Exact => "the bounds meet",
         Stop::Resolution => "resolution reached",
         Stop::Boxes => "box budget spent",
         Stop::Time => "time budget spent",

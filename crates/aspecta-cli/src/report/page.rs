@@ -264,6 +264,7 @@ fn certified_section() -> Markup {
 
 fn run_section<'a>(run: &Run, names: impl Iterator<Item = &'a str>) -> Markup {
     let stop = match run.stop {
+        Stop::Exact => "the bounds on the number of aspects met",
         Stop::Resolution => "the resolution asked for was reached",
         Stop::Boxes => "the budget of boxes was spent",
         Stop::Time => "the budget of time was spent",

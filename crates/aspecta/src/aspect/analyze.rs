@@ -1,16 +1,20 @@
 //! The main job: a robot in, its working modes and generalized aspects out.
 
-use super::ascent::{Class, merge};
-use super::components::{Components, Piece, UnionFind};
+use super::ascent::Class;
+use super::atlas::{Atlas, Leaf};
+use super::components::{Components, Piece};
+use super::count::{Counted, Group};
+use super::doubt::doubts;
 use super::earlier::{parallel_aspects, serial_aspects};
 use super::measure::{Held, Measure};
 use super::project::{q_bounds, w_bounds};
 use super::result::*;
+use super::search::Search;
 use crate::kinematics::WorkingMode;
 use crate::paving::{Budget, Control, Mark, Node, Paving, Progress};
 use crate::robot::{Actuator, Leg, Robot, SliceError};
 use rayon::prelude::*;
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 use std::time::Instant;
 
 /// How an analysis is done.
@@ -62,38 +66,40 @@ pub fn analyze(robot: &Robot, options: &Options, control: &Control<'_>) -> Resul
     }
     let window = robot.slice(&options.fix)?;
     let modes = robot.working_modes();
-    let paving = Paving::new(robot, &window, &modes, &options.budget, control);
-    let keys: Vec<(usize, DetSign)> =
-        (0..modes.len()).flat_map(|m| [(m, DetSign::Positive), (m, DetSign::Negative)]).collect();
+    let search = Search::run(robot, &window, &modes, &options.budget, control);
+    let Search { atlas, counted, stop } = search;
+    let paving = &atlas.sheets[0];
     let found: Vec<Found> =
-        keys.par_iter().map(|&(m, sign)| find(robot, &paving, m, sign, control)).collect();
+        counted.par_iter().map(|(class, counted)| Found::new(&atlas, *class, counted)).collect();
+    let doubts = counted.iter().flat_map(|(class, counted)| doubts(&atlas, *class, counted)).collect();
     let (classes, labels) = number(found);
     let low = classes.iter().map(|c| c.low).sum();
     let high = classes.iter().map(|c| c.high).sum::<Option<usize>>();
     (control.progress)(Progress { stage: "definitions 5 and 6", done: 0, total: 1 });
     let (parallel, serial) =
-        rayon::join(|| parallel_aspects(robot, &paving), || serial_aspects(robot, &paving));
+        rayon::join(|| parallel_aspects(robot, paving), || serial_aspects(robot, paving));
     Ok(Analysis {
         format_version: FORMAT_VERSION,
         fixed: Held::all(robot, &window),
         measure: Measure::over(robot, &window),
         aspects: Count { low, high, certified: high == Some(low) },
         legs: robot.leg_reports(),
-        modes: modes.iter().enumerate().map(|(m, mode)| mode_report(robot, &paving, m, *mode)).collect(),
+        modes: modes.iter().enumerate().map(|(m, mode)| mode_report(robot, paving, m, *mode)).collect(),
         classes,
+        doubts,
         parallel_aspects: parallel,
         serial_aspects: serial,
         run: Run {
-            boxes: paving.boxes,
+            boxes: atlas.boxes(),
             depth: paving.depth,
             resolution: window.ranges.iter().map(|r| (r.1 - r.0) / f64::from(1u32 << paving.depth)).collect(),
-            stop: paving.stop,
+            stop,
             seconds: start.elapsed().as_secs_f64(),
         },
         robot: robot.clone(),
         window,
         labels,
-        paving,
+        paving: atlas.sheets.into_iter().next().unwrap_or_else(|| unreachable!("sheet 0 is the pose's")),
     })
 }
 
@@ -103,67 +109,57 @@ struct Found {
     labels: Vec<(u32, u32)>,
 }
 
-fn find(robot: &Robot, paving: &Paving, m: usize, det_a: DetSign, control: &Control<'_>) -> Found {
-    let mode = paving.modes[m];
-    let bit = 1 << (2 * m + usize::from(det_a == DetSign::Negative));
-    let sight = |node: &Node| node.of_classes(bit);
-    let components = Components::new(robot, paving, &sight);
-    let class = Class { mode, sign: det_a.factor(), bit };
-    let mut joined = merge(robot, paving, class, &components, control);
-    // Pieces by component of G⁺, and those components by measure.
-    let mut groups = BTreeMap::<u32, Vec<u32>>::new();
-    for (k, piece) in components.pieces.iter().enumerate() {
-        groups.entry(piece.component).or_default().push(k as u32);
+impl Found {
+    fn new(atlas: &Atlas<'_>, class: Class, counted: &Counted) -> Self {
+        let components = &counted.components;
+        let total =
+            |group: &Group| group.pieces.iter().map(|&k| components.pieces[k as usize].measure).sum::<f64>();
+        let mut groups: Vec<&Group> = counted.found.iter().collect();
+        groups.sort_by(|a, b| total(b).total_cmp(&total(a)));
+        let mut label_of_piece = vec![0; components.pieces.len()];
+        for (k, group) in groups.iter().enumerate() {
+            group.pieces.iter().for_each(|&piece| label_of_piece[piece as usize] = k as u32 + 1);
+        }
+        let label = |i: usize| components.piece_of[i].map_or(0, |piece| label_of_piece[piece as usize]);
+        let in_poses = |(i, &(sheet, node)): (usize, &Leaf)| (sheet == 0).then(|| (node, label(i)));
+        let labels = components.boxes.iter().enumerate().filter_map(in_poses).collect();
+        let aspects: Vec<Aspect> = groups.iter().map(|g| aspect(atlas, class, components, g)).collect();
+        let class = AspectClass {
+            mode: class.mode,
+            det_a: if class.sign > 0 { DetSign::Positive } else { DetSign::Negative },
+            low: aspects.len(),
+            high: counted.high(),
+            measure: aspects.iter().map(|a| a.measure).sum(),
+            undecided: components.undecided,
+            aspects,
+        };
+        Self { class, labels }
     }
-    let total = |group: &[u32]| group.iter().map(|&k| components.pieces[k as usize].measure).sum::<f64>();
-    let mut groups: Vec<Vec<u32>> = groups.into_values().collect();
-    groups.sort_by(|a, b| total(b).total_cmp(&total(a)));
-    let mut label_of_piece = vec![0; components.pieces.len()];
-    for (k, group) in groups.iter().enumerate() {
-        group.iter().for_each(|&piece| label_of_piece[piece as usize] = k as u32 + 1);
-    }
-    let label = |i: usize| components.piece_of[i].map_or(0, |piece| label_of_piece[piece as usize]);
-    let labels = components.boxes.iter().enumerate().map(|(i, &node)| (node, label(i))).collect();
-    let aspects: Vec<Aspect> =
-        groups.iter().map(|g| aspect(robot, paving, mode, &components, &mut joined, g)).collect();
-    let low = aspects.len();
-    let high = (components.undecided == 0.0).then(|| aspects.iter().map(|a| a.pieces).sum());
-    let measure = aspects.iter().map(|a| a.measure).sum();
-    let class = AspectClass { mode, det_a, low, high, measure, undecided: components.undecided, aspects };
-    Found { class, labels }
 }
 
-fn aspect(
-    robot: &Robot,
-    paving: &Paving,
-    mode: WorkingMode,
-    components: &Components,
-    joined: &mut UnionFind,
-    group: &[u32],
-) -> Aspect {
-    let pieces: Vec<&Piece> = group.iter().map(|&k| &components.pieces[k as usize]).collect();
-    let mut roots: Vec<u32> = group.iter().map(|&k| joined.root(k)).collect();
-    roots.sort_unstable();
-    roots.dedup();
-    let component = pieces[0].component;
-    let of_component = |i: &usize| components.component_of[*i] == component;
-    let covering: Vec<usize> = (0..components.boxes.len()).filter(of_component).collect();
-    let all: Vec<u32> = covering.iter().map(|&i| components.boxes[i]).collect();
-    let inner: Vec<u32> = covering
-        .iter()
-        .filter(|&&i| components.piece_of[i].is_some())
-        .map(|&i| components.boxes[i])
+fn aspect(atlas: &Atlas<'_>, class: Class, components: &Components, group: &Group) -> Aspect {
+    let paving = &atlas.sheets[0];
+    let pieces: Vec<&Piece> = group.pieces.iter().map(|&k| &components.pieces[k as usize]).collect();
+    let in_poses = |i: &usize| components.boxes[*i].0 == 0;
+    let all: Vec<u32> = (0..components.boxes.len())
+        .filter(|&i| in_poses(&i) && components.component_of[i] == Some(group.component))
+        .map(|i| components.boxes[i].1)
         .collect();
-    let pose =
-        paving.centre(pieces.iter().map(|p| p.largest).reduce(|a, b| paving.larger(a, b)).unwrap_or(0));
-    let q = robot.inverse_in(&pose, mode).ok().flatten().unwrap_or_default();
+    let mine: BTreeSet<u32> = group.pieces.iter().copied().collect();
+    let inner: Vec<u32> = (0..components.boxes.len())
+        .filter(|&i| in_poses(&i) && components.piece_of[i].is_some_and(|piece| mine.contains(&piece)))
+        .map(|i| components.boxes[i].1)
+        .collect();
+    let largest = inner.iter().copied().reduce(|a, b| paving.larger(a, b)).unwrap_or(0);
+    let pose = paving.centre(largest);
+    let q = atlas.robot.inverse_in(&pose, class.mode).ok().flatten().unwrap_or_default();
     Aspect {
         id: 0,
         measure: pieces.iter().map(|p| p.measure).sum(),
-        pieces: roots.len(),
+        pieces: group.summits,
         sample: Sample { pose, q },
         w_bounds: w_bounds(paving, &all),
-        q_bounds: q_bounds(robot, paving, mode, &inner),
+        q_bounds: q_bounds(atlas.robot, paving, class.mode, &inner),
     }
 }
 

@@ -9,7 +9,7 @@ use crate::kinematics::placement::Placement;
 use crate::kinematics::segment::{Along, along};
 use crate::kinematics::{WorkingMode, for_platform};
 use crate::num::{Interval, Jet, Scalar};
-use crate::paving::{ClassSet, Control, Paving, Progress};
+use crate::paving::{ClassSet, Control, Paving};
 use crate::robot::Robot;
 use nalgebra::{DMatrix, SMatrix, SVector};
 use rayon::prelude::*;
@@ -27,50 +27,64 @@ pub(super) struct Class {
     pub bit: ClassSet,
 }
 
-/// Which pieces are proved to be one: sets of piece numbers.
+/// A polyline proved to lie in S_{s,σ}, between boxes inside it.
+#[derive(Clone, Debug)]
+pub(super) struct Join {
+    pub class: ClassSet,
+    pub path: Vec<Vec<f64>>,
+}
+
+/// Which pieces are proved to be one: sets of piece numbers, and the paths that prove it. Climbs start from the pieces that
+/// are `worth` it, except the largest such piece of each component, which waits for the others.
 pub(super) fn merge(
     robot: &Robot,
     paving: &Paving,
     class: Class,
     components: &Components,
+    worth: &[bool],
     control: &Control<'_>,
-) -> UnionFind {
+) -> (UnionFind, Vec<Join>) {
     let pieces = &components.pieces;
-    // The largest piece of a component waits for the others.
     let mut largest = std::collections::HashMap::new();
-    for (k, piece) in pieces.iter().enumerate() {
+    for (k, piece) in pieces.iter().enumerate().filter(|(k, _)| worth[*k]) {
         let best = largest.entry(piece.component).or_insert(k);
         if piece.measure > pieces[*best].measure {
             *best = k;
         }
     }
-    let climbers: Vec<usize> = (0..pieces.len()).filter(|&k| largest[&pieces[k].component] != k).collect();
-    let met: Vec<Vec<u32>> = climbers
+    let waits = |k: usize| largest[&pieces[k].component] == k;
+    let climbers: Vec<usize> = (0..pieces.len()).filter(|&k| worth[k] && !waits(k)).collect();
+    let climbs: Vec<Climb> = climbers
         .par_iter()
         .map(|&k| {
             if control.is_cancelled() {
-                return Vec::new();
+                return Climb::default();
             }
             let goal = largest[&pieces[k].component] as u32;
-            (control.progress)(Progress {
-                stage: "joining pieces",
-                done: k as u64,
-                total: pieces.len() as u64,
-            });
             for_platform!(robot.platform, climb(robot, paving, class, components, k as u32, goal))
         })
         .collect();
     let mut sets = UnionFind::new(pieces.len());
-    for (&k, others) in climbers.iter().zip(&met) {
-        for &other in others {
+    let mut joins = Vec::new();
+    for (&k, climb) in climbers.iter().zip(climbs) {
+        for &other in &climb.met {
             sets.union(k as u32, other);
         }
+        if !climb.met.is_empty() {
+            joins.push(Join { class: class.bit, path: climb.path });
+        }
     }
-    sets
+    (sets, joins)
 }
 
-/// The pieces met on the climb from piece `from`, which ends at a maximum of U, at piece `goal`, or where no step can be
-/// proved any more.
+/// A climb: the pieces met, and the path up to the last of them.
+#[derive(Default)]
+struct Climb {
+    met: Vec<u32>,
+    path: Vec<Vec<f64>>,
+}
+
+/// The climb from piece `from`, which ends at a maximum of U, at piece `goal`, or where no step can be proved any more.
 fn climb<const D: usize, const N: usize>(
     robot: &Robot,
     paving: &Paving,
@@ -78,23 +92,29 @@ fn climb<const D: usize, const N: usize>(
     components: &Components,
     from: u32,
     goal: u32,
-) -> Vec<u32> {
-    let mut met = Vec::new();
-    let start = paving.centre(components.pieces[from as usize].largest);
+) -> Climb {
+    let mut climb = Climb::default();
+    let (0, largest) = components.pieces[from as usize].largest else { return climb };
+    let start = paving.centre(largest);
     let mut x = SVector::<f64, N>::from_column_slice(&start);
     let free: [bool; N] = std::array::from_fn(|k| paving.axes.contains(&k));
+    let mut path = vec![start];
     for _ in 0..STEPS {
         let Some((height, direction)) = uphill::<D, N>(robot, class, &x, &free) else { break };
         let Some(next) = step::<D, N>(robot, paving, class, &x, height, &direction) else { break };
         x = next;
+        path.push(x.as_slice().to_vec());
         let here = paving.find(&|node| node.of_classes(class.bit), x.as_slice());
-        let piece = here.filter(|(_, surely)| *surely).and_then(|(node, _)| components.piece_at(node));
-        met.extend(piece.filter(|&piece| piece != from));
+        let piece = here.filter(|(_, surely)| *surely).and_then(|(node, _)| components.piece_at((0, node)));
+        if let Some(piece) = piece.filter(|&piece| piece != from) {
+            climb.met.push(piece);
+            climb.path.clone_from(&path);
+        }
         if piece == Some(goal) {
             break;
         }
     }
-    met
+    climb
 }
 
 /// The longest certified step along `direction`, halved up to 30 times, on which U grows.

@@ -4,17 +4,39 @@ use super::scale::Scale;
 use super::summit::summitless;
 use crate::kinematics::WorkingMode;
 use crate::kinematics::chart::{Chart, Fold, folds};
-use crate::num::LANES;
-use crate::paving::{Budget, ClassSet, Control, Paving, for_paving};
+use crate::num::{Interval, LANES, Scalar};
+use crate::kinematics::for_platform;
+use crate::paving::{Budget, ClassSet, Control, Mark, Node, Paving, Progress, for_paving};
 use crate::robot::{Robot, Window};
 use rayon::prelude::*;
 
-/// A leaf: sheet and node.
-pub(crate) type Leaf = (usize, u32);
+/// A box: sheet and node.
+pub(super) type Leaf = (usize, u32);
+
+/// How far an atlas may be refined.
+pub(super) struct Limits<'a> {
+    /// Greatest depth of a box.
+    pub depth: u32,
+    /// Greatest number of boxes.
+    pub boxes: u64,
+    /// Whether the time is up.
+    pub late: &'a (dyn Fn() -> bool + Sync),
+}
+
+impl Limits<'_> {
+    /// How many boxes may still be split.
+    pub(super) fn affordable(&self, atlas: &Atlas<'_>) -> usize {
+        (self.boxes.saturating_sub(atlas.boxes()) >> atlas.sheets[0].axes.len()) as usize
+    }
+
+    pub(super) fn is_over(&self, control: &Control<'_>) -> bool {
+        (self.late)() || control.is_cancelled()
+    }
+}
 
 /// The pavings of all charts. Sheet 0 is in pose coordinates; sheet i + 1 is that of fold i and replaces the boxes of
 /// sheet 0 that it covers.
-pub(crate) struct Atlas<'a> {
+pub(super) struct Atlas<'a> {
     pub robot: &'a Robot,
     pub folds: Vec<Fold>,
     pub sheets: Vec<Paving>,
@@ -22,7 +44,7 @@ pub(crate) struct Atlas<'a> {
 }
 
 impl<'a> Atlas<'a> {
-    pub(crate) fn new(
+    pub(super) fn new(
         robot: &'a Robot,
         window: &Window,
         modes: &[WorkingMode],
@@ -40,20 +62,83 @@ impl<'a> Atlas<'a> {
     }
 
     /// Classes of which nothing is settled in a box: it is neither inside nor outside, and might hide a whole aspect.
-    pub(crate) fn open(&self, (sheet, node): Leaf) -> ClassSet {
+    pub(super) fn open(&self, (sheet, node): Leaf) -> ClassSet {
         let node = &self.sheets[sheet].nodes[node as usize];
         if node.covered || node.first_child != 0 { 0 } else { node.undecided & !node.summitless }
     }
 
-    /// All leaves in which something might hide.
-    pub(crate) fn open_leaves(&self) -> Vec<Leaf> {
-        let all =
-            self.sheets.iter().enumerate().flat_map(|(s, p)| (0..p.nodes.len() as u32).map(move |n| (s, n)));
+    /// All leaves in which something is undecided.
+    pub(super) fn undecided_leaves(&self) -> Vec<Leaf> {
+        let all = self.sheets.iter().enumerate().flat_map(|(s, p)| (0..p.nodes.len() as u32).map(move |n| (s, n)));
         all.filter(|&leaf| self.open(leaf) != 0).collect()
     }
 
+    /// Remembers that a box, and all that it was split into, has no summit of some classes.
+    pub(super) fn remember(&mut self, (sheet, node): Leaf, classes: ClassSet) {
+        let paving = &mut self.sheets[sheet];
+        let mut stack = vec![node];
+        while let Some(at) = stack.pop() {
+            paving.nodes[at as usize].summitless |= classes;
+            stack.extend(paving.children(at));
+        }
+    }
+
+    /// Boxes classified so far.
+    pub(super) fn boxes(&self) -> u64 {
+        self.sheets.iter().map(|paving| paving.boxes).sum()
+    }
+
+    pub(super) fn depth_of(&self, (sheet, node): Leaf) -> u32 {
+        self.sheets[sheet].depth_of(node)
+    }
+
+    /// Splits and searches boxes until no aspect can hide in any, as far as `limits` allow; `fresh` are the leaves not searched yet.
+    /// Returns whether the limits allowed all of it.
+    pub(super) fn uncover(&mut self, mut fresh: Vec<Leaf>, limits: &Limits<'_>, control: &Control<'_>) -> bool {
+        let mut complete = true;
+        loop {
+            let open = if self.is_worth_searching(&fresh) { self.survey(&fresh) } else { fresh };
+            let (split, deepest): (Vec<Leaf>, Vec<Leaf>) =
+                open.into_iter().partition(|&leaf| self.depth_of(leaf) < limits.depth);
+            complete &= deepest.is_empty();
+            if !deepest.is_empty() {
+                // Coarse boxes not searched yet may be settled nevertheless.
+                self.survey(&deepest);
+            }
+            if split.is_empty() {
+                return complete;
+            }
+            let affordable = limits.affordable(self);
+            if split.len() > affordable || limits.is_over(control) {
+                self.survey(&split);
+                return false;
+            }
+            let done = self.boxes();
+            (control.progress)(Progress { stage: "looking for hidden aspects", done, total: done + split.len() as u64 });
+            fresh = self.split(&split, control);
+        }
+    }
+
+    /// Whether enough leaves have no summit to make a search worth its time, judged by a sample; if not, it is better to
+    /// split them all first.
+    fn is_worth_searching(&self, leaves: &[Leaf]) -> bool {
+        const SAMPLE: usize = 512;
+        if leaves.len() < 8 * SAMPLE {
+            return true;
+        }
+        let sheet = leaves[0].0;
+        let sample: Vec<(u32, ClassSet)> = leaves
+            .iter()
+            .filter(|leaf| leaf.0 == sheet)
+            .step_by(leaves.len() / SAMPLE)
+            .map(|&leaf| (leaf.1, self.open(leaf)))
+            .collect();
+        let settled = sample.iter().zip(self.summitless(sheet, &sample)).filter(|(s, proved)| s.1 & !proved == 0);
+        10 * settled.count() > 3 * sample.len()
+    }
+
     /// Looks for summits in leaves, and returns those in which some might be.
-    pub(crate) fn survey(&mut self, leaves: &[Leaf]) -> Vec<Leaf> {
+    pub(super) fn survey(&mut self, leaves: &[Leaf]) -> Vec<Leaf> {
         for sheet in 0..self.sheets.len() {
             let asked: Vec<(u32, ClassSet)> = leaves
                 .iter()
@@ -70,7 +155,7 @@ impl<'a> Atlas<'a> {
     }
 
     /// Of the classes asked of each box of a sheet, those that surely have no summit in it.
-    pub(crate) fn summitless(&self, sheet: usize, asked: &[(u32, ClassSet)]) -> Vec<ClassSet> {
+    pub(super) fn summitless(&self, sheet: usize, asked: &[(u32, ClassSet)]) -> Vec<ClassSet> {
         let paving = &self.sheets[sheet];
         let eight = |boxes: &[(u32, ClassSet)]| {
             let (robot, scale) = (self.robot, &self.scale);
@@ -81,7 +166,7 @@ impl<'a> Atlas<'a> {
     }
 
     /// Splits leaves; returns their children.
-    pub(crate) fn split(&mut self, leaves: &[Leaf], control: &Control<'_>) -> Vec<Leaf> {
+    pub(super) fn split(&mut self, leaves: &[Leaf], control: &Control<'_>) -> Vec<Leaf> {
         let mut children = Vec::new();
         for (s, sheet) in self.sheets.iter_mut().enumerate() {
             let here: Vec<u32> = leaves.iter().filter(|l| l.0 == s).map(|l| l.1).collect();
@@ -94,51 +179,67 @@ impl<'a> Atlas<'a> {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::robot::catalogue;
-
-    use std::sync::atomic::AtomicBool;
-    use std::time::Instant;
-
-    #[test]
-    fn experiment() {
-        let name = std::env::var("R").unwrap_or("five-bar".into());
-        let depth: u32 = std::env::var("DEPTH").map_or(6, |d| d.parse().unwrap());
-        let most: u32 = std::env::var("MOSTD").map_or(12, |d| d.parse().unwrap());
-        let robot = catalogue::find(&name).unwrap();
-        let robot = &robot;
-        let window = robot.workspace_window().unwrap();
-        let no = AtomicBool::new(false);
-        let control = Control { cancelled: &no, progress: &|_| {} };
-        let t = Instant::now();
-        let budget = Budget { depth: Some(depth), ..Budget::default() };
-        let mut atlas = Atlas::new(robot, &window, &robot.working_modes(), &budget, &control);
-        println!("folds {:?}", atlas.folds);
-        println!("scale {:?}", atlas.scale);
-        println!("base {:?} boxes {}", t.elapsed(), atlas.sheets[0].boxes);
-        let mut leaves = atlas.open_leaves();
-        for round in 0.. {
-            let t = Instant::now();
-            let n = leaves.len();
-            let open = atlas.survey(&leaves);
-            let s = t.elapsed();
-            let deepest = open.iter().map(|&(s, n)| atlas.sheets[s].depth_of(n)).max();
-            let per: Vec<usize> =
-                (0..atlas.sheets.len()).map(|s| open.iter().filter(|l| l.0 == s).count()).collect();
-            println!("round {round}: {n} tested in {s:?}, open {} {per:?}, depth {deepest:?}", open.len());
-            let todo: Vec<Leaf> =
-                open.iter().copied().filter(|&(s, n)| atlas.sheets[s].depth_of(n) < most).collect();
-            if todo.is_empty() {
-                for &(s, n) in open.iter().step_by(1 + open.len() / 20) {
-                    let b = atlas.sheets[s].bounds(n);
-                    println!("  sheet {s} {:?} classes {:016b}", b, atlas.open((s, n)));
-                }
-                break;
+/// Visits the pairs of boxes of sheet 0 and of a fold's sheet that meet: `join(a, b, surely)`.
+///
+/// The boxes of a fold's sheet and those boxes of sheet 0 that it does not cover, cut to the poses the chart does not hold, cover
+/// all configurations. The two kinds meet only in the chart's outer faces, so every box at such a face is joined with all
+/// that its image may meet. `surely`: the centre of a box of the fold has a pose that lies in the box of sheet 0.
+pub(super) fn seams(
+    robot: &Robot,
+    sheets: &[Paving],
+    sight: &impl Fn(&Node) -> Mark,
+    join: &mut impl FnMut(Leaf, Leaf, bool),
+) {
+    for (s, sheet) in sheets.iter().enumerate().skip(1) {
+        let mut boxes = Vec::new();
+        sheet.boxes_of(sight, &mut |at| boxes.push(at));
+        for at in boxes {
+            for face in outer_faces(robot, sheet, at) {
+                sheets[0].meeting(sight, &image(robot, sheet, &face), &mut |other| join((0, other), (s, at), false));
             }
-            leaves = atlas.split(&todo, &control);
+            if sight(&sheet.nodes[at as usize]) == Mark::Inside {
+                let centre = sheet.centre(at).into_iter().map(Interval::point).collect::<Vec<_>>();
+                let pose = image(robot, sheet, &centre);
+                sheets[0].meeting(sight, &pose, &mut |other| {
+                    if sheets[0].holds(other, &pose) {
+                        join((0, other), (s, at), true);
+                    }
+                });
+            }
         }
-        println!("total {:?} boxes {}", t.elapsed(), atlas.sheets.iter().map(|p| p.boxes).sum::<u64>());
     }
+}
+
+/// The outer faces of a fold's chart that a box lies at: its coordinates, one of them at its end.
+fn outer_faces(robot: &Robot, sheet: &Paving, at: u32) -> Vec<Vec<Interval>> {
+    let node = &sheet.nodes[at as usize];
+    let last = (1u32 << node.depth) - 1;
+    let (lo, hi) = sheet.bounds(at);
+    let mut coordinates: Vec<Interval> = sheet.window.ranges.iter().map(|r| Interval::point(r.0)).collect();
+    for (a, &k) in sheet.axes.iter().enumerate() {
+        coordinates[k] = Interval::new(lo[a], hi[a]);
+    }
+    let mut faces = Vec::new();
+    for (a, &k) in sheet.axes.iter().enumerate().filter(|(_, k)| (1..robot.platform.space()).contains(*k)) {
+        for (is_outer, end) in [(node.corner[a] == 0, lo[a]), (node.corner[a] == last, hi[a])] {
+            if is_outer {
+                let mut face = coordinates.clone();
+                face[k] = Interval::point(end);
+                faces.push(face);
+            }
+        }
+    }
+    faces
+}
+
+/// Poses that hold the configurations with the given coordinates.
+fn image(robot: &Robot, sheet: &Paving, y: &[Interval]) -> Vec<Interval> {
+    for_platform!(robot.platform, image_in(robot, sheet, y))
+}
+
+fn image_in<const D: usize, const N: usize>(robot: &Robot, sheet: &Paving, y: &[Interval]) -> Vec<Interval> {
+    let y: [Interval; N] = std::array::from_fn(|k| y[k]);
+    let (placement, _) = sheet.chart.at::<Interval, D, N>(robot, &y, |k| y[k].sin_cos());
+    // The chart's coordinates stand for the translations.
+    (0..N).map(|k| if k < D { placement.origin()[k] } else { y[k] }).collect()
 }

@@ -1,5 +1,6 @@
 //! Connected components of the boxes of a class: the two graphs of the sandwich.
 
+use super::atlas::{Leaf, seams};
 use crate::paving::{Mark, Node, Paving};
 use crate::robot::{Platform, Robot};
 
@@ -30,92 +31,137 @@ impl UnionFind {
 /// A connected set of inside boxes.
 #[derive(Clone, Debug)]
 pub(super) struct Piece {
-    /// Certified measure.
+    /// Certified measure, in the coordinates of each sheet.
     pub measure: f64,
-    /// Its largest box, the first of its size.
-    pub largest: u32,
+    /// Its largest box in pose coordinates, the first of its size, or a box of another sheet if it has none.
+    pub largest: Leaf,
     /// Which component of G⁺ (index of its root box) it lies in.
     pub component: u32,
 }
 
-/// The boxes of one class and how they hang together.
+/// The boxes of a set of configurations and how they hang together.
 pub(super) struct Components {
-    /// Node indices of the inside and undecided boxes, ascending.
-    pub boxes: Vec<u32>,
-    /// For each box its piece (component of G⁻), or `None` if undecided.
+    /// The inside and undecided boxes of all sheets, ascending; those that a fold's chart covers only if they are inside.
+    pub boxes: Vec<Leaf>,
+    /// For each box its piece (component of G⁻), or `None` if undecided, or covered and connected to none that is not.
     pub piece_of: Vec<Option<u32>>,
-    /// For each box its component of G⁺, named by the box index of its root.
-    pub component_of: Vec<u32>,
+    /// For each box its component of G⁺, named by the box index of its root; `None` for covered boxes.
+    pub component_of: Vec<Option<u32>>,
     /// The pieces, in the order of their first box.
     pub pieces: Vec<Piece>,
-    /// Measure of the undecided boxes.
+    /// Measure of the undecided boxes in pose coordinates.
     pub undecided: f64,
 }
 
 impl Components {
-    /// Components of a set of poses.
+    /// Components of a set of configurations, given over the sheets of an atlas (or one sheet alone).
     ///
     /// G⁺ joins inside and undecided boxes that share a point; G⁻ joins inside boxes that do. A connected
     /// component of the set is covered by the closed boxes of the first kind, so it lies in one component of G⁺;
     /// closed inside boxes that share a point lie in one component of the set (`docs/theory.md`, the sandwich).
-    /// Boxes that may touch where coordinates fold up join G⁺ only, which keeps the lower bound a lower bound.
-    pub(super) fn new(robot: &Robot, paving: &Paving, sight: &impl Fn(&Node) -> Mark) -> Self {
-        let mut boxes = Vec::new();
-        paving.boxes_of(sight, &mut |at| boxes.push(at));
-        boxes.sort_unstable();
-        let mut index_of = vec![u32::MAX; paving.nodes.len()];
-        for (i, &at) in boxes.iter().enumerate() {
-            index_of[at as usize] = i as u32;
+    /// Boxes that may touch where coordinates fold up, or in another chart, join G⁺ only, which keeps the lower bound a lower
+    /// bound. Boxes that a fold's chart covers are not in G⁺, its own boxes stand for them; but inside they are, so they do
+    /// connect in G⁻.
+    pub(super) fn new(robot: &Robot, sheets: &[Paving], sight: &impl Fn(&Node) -> Mark) -> Self {
+        Self::with_links(robot, sheets, sight, &mut |_, _| {})
+    }
+
+    /// [`Components::new`], and a visit of every pair of boxes (by index) that G⁺ joins.
+    pub(super) fn with_links(
+        robot: &Robot,
+        sheets: &[Paving],
+        sight: &impl Fn(&Node) -> Mark,
+        visit: &mut impl FnMut(u32, u32),
+    ) -> Self {
+        // One sheet alone has nothing to cover it. Covered boxes count only where they are inside.
+        let is_covered = |node: &Node| node.covered && sheets.len() > 1;
+        let kept = |node: &Node| match sight(node) {
+            Mark::Open if is_covered(node) => Mark::Outside,
+            mark => mark,
+        };
+        let mut boxes: Vec<Leaf> = Vec::new();
+        for (s, paving) in sheets.iter().enumerate() {
+            let first = boxes.len();
+            paving.boxes_of(&kept, &mut |at| boxes.push((s, at)));
+            boxes[first..].sort_unstable();
         }
-        let is_inside = |at: u32| sight(&paving.nodes[at as usize]) == Mark::Inside;
+        let index = Index::new(sheets, &boxes);
+        let node = |(s, at): Leaf| &sheets[s].nodes[at as usize];
+        let is_inside = |leaf: Leaf| sight(node(leaf)) == Mark::Inside;
         let mut all = UnionFind::new(boxes.len());
         let mut inner = UnionFind::new(boxes.len());
-        paving.touching(sight, &mut |a, b| {
-            let (i, j) = (index_of[a as usize], index_of[b as usize]);
-            all.union(i, j);
-            if is_inside(a) && is_inside(b) {
+        let mut join = |a: Leaf, b: Leaf, surely: bool| {
+            let (i, j) = (index.of(a), index.of(b));
+            if !is_covered(node(a)) && !is_covered(node(b)) {
+                all.union(i, j);
+                visit(i, j);
+            }
+            if surely && is_inside(a) && is_inside(b) {
                 inner.union(i, j);
             }
-        });
-        for (a, b) in folds(robot, paving, sight) {
-            all.union(index_of[a as usize], index_of[b as usize]);
-        }
-        let mut components = Self {
-            piece_of: vec![None; boxes.len()],
-            component_of: (0..boxes.len() as u32).map(|i| all.root(i)).collect(),
-            pieces: Vec::new(),
-            undecided: 0.0,
-            boxes,
         };
-        components.gather(paving, &is_inside, &mut inner);
+        for (s, paving) in sheets.iter().enumerate() {
+            paving.touching(&kept, &mut |a, b| join((s, a), (s, b), true));
+        }
+        for (a, b) in folds(robot, &sheets[0], &kept) {
+            join((0, a), (0, b), false);
+        }
+        seams(robot, sheets, &kept, &mut join);
+        let mut root = |i: u32| (!is_covered(node(boxes[i as usize]))).then(|| all.root(i));
+        let component_of = (0..boxes.len() as u32).map(&mut root).collect();
+        let mut components =
+            Self { piece_of: vec![None; boxes.len()], component_of, pieces: Vec::new(), undecided: 0.0, boxes };
+        components.gather(sheets, &is_inside, &mut inner);
         components
     }
 
-    fn gather(&mut self, paving: &Paving, is_inside: &impl Fn(u32) -> bool, inner: &mut UnionFind) {
+    fn gather(&mut self, sheets: &[Paving], is_inside: &impl Fn(Leaf) -> bool, inner: &mut UnionFind) {
         let mut piece_at_root = vec![u32::MAX; self.boxes.len()];
         for i in 0..self.boxes.len() {
-            let at = self.boxes[i];
-            let measure = paving.measure(paving.depth_of(at));
-            if !is_inside(at) {
-                self.undecided += measure;
+            let (s, at) = self.boxes[i];
+            let measure = sheets[s].measure(sheets[s].depth_of(at));
+            if !is_inside((s, at)) {
+                self.undecided += if s == 0 { measure } else { 0.0 };
                 continue;
             }
+            let Some(component) = self.component_of[i] else { continue };
             let root = inner.root(i as u32) as usize;
             if piece_at_root[root] == u32::MAX {
                 piece_at_root[root] = self.pieces.len() as u32;
-                self.pieces.push(Piece { measure: 0.0, largest: at, component: self.component_of[i] });
+                self.pieces.push(Piece { measure: 0.0, largest: (s, at), component });
             }
-            let piece = piece_at_root[root];
-            let piece_so_far = &mut self.pieces[piece as usize];
-            piece_so_far.measure += measure;
-            piece_so_far.largest = paving.larger(piece_so_far.largest, at);
-            self.piece_of[i] = Some(piece);
+            let piece = &mut self.pieces[piece_at_root[root] as usize];
+            piece.measure += measure;
+            if piece.largest.0 == s {
+                piece.largest.1 = sheets[s].larger(piece.largest.1, at);
+            }
+        }
+        for i in (0..self.boxes.len()).filter(|&i| is_inside(self.boxes[i])) {
+            let piece = piece_at_root[inner.root(i as u32) as usize];
+            self.piece_of[i] = (piece != u32::MAX).then_some(piece);
         }
     }
 
-    /// The piece that holds the box with this node index.
-    pub(super) fn piece_at(&self, node: u32) -> Option<u32> {
-        self.boxes.binary_search(&node).ok().and_then(|i| self.piece_of[i])
+    /// The piece that holds a box.
+    pub(super) fn piece_at(&self, leaf: Leaf) -> Option<u32> {
+        self.boxes.binary_search(&leaf).ok().and_then(|i| self.piece_of[i])
+    }
+}
+
+/// Where each box is in the list of boxes.
+struct Index(Vec<Vec<u32>>);
+
+impl Index {
+    fn new(sheets: &[Paving], boxes: &[Leaf]) -> Self {
+        let mut of: Vec<Vec<u32>> = sheets.iter().map(|p| vec![u32::MAX; p.nodes.len()]).collect();
+        for (i, &(s, at)) in boxes.iter().enumerate() {
+            of[s][at as usize] = i as u32;
+        }
+        Self(of)
+    }
+
+    fn of(&self, (s, at): Leaf) -> u32 {
+        self.0[s][at as usize]
     }
 }
 

@@ -95,13 +95,13 @@ impl Domain {
 
 /// The domains of a set: one entry per component of inside and undecided boxes that holds an inside box, largest first.
 fn domains(robot: &Robot, paving: &Paving, sight: &impl Fn(&Node) -> Mark) -> Vec<Domain> {
-    let components = Components::new(robot, paving, sight);
+    let components = Components::new(robot, std::slice::from_ref(paving), sight);
     let mut by_component = std::collections::BTreeMap::<u32, Domain>::new();
     for piece in &components.pieces {
-        let start = Domain { measure: 0.0, largest: piece.largest };
+        let start = Domain { measure: 0.0, largest: piece.largest.1 };
         let domain = by_component.entry(piece.component).or_insert(start);
         domain.measure += piece.measure;
-        domain.largest = paving.larger(domain.largest, piece.largest);
+        domain.largest = paving.larger(domain.largest, piece.largest.1);
     }
     let mut found: Vec<Domain> = by_component.into_values().collect();
     found.sort_by(|a, b| b.measure.total_cmp(&a.measure));

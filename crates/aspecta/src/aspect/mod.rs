@@ -10,19 +10,23 @@
 
 mod analyze;
 mod ascent;
-pub(crate) mod atlas;
+mod atlas;
 mod components;
+mod count;
+mod doubt;
 mod earlier;
 mod measure;
 mod project;
 mod result;
+mod saddle;
 mod scale;
+mod search;
 mod summit;
 
 pub use analyze::{AnalysisError, Options, analyze};
 pub use measure::{Held, Measure, Unit};
 pub use scale::Scale;
 pub use result::{
-    Analysis, Aspect, AspectClass, Cell, Count, DetSign, EarlierAspects, EarlierDomain, FORMAT_VERSION,
+    Analysis, Aspect, AspectClass, Cell, Count, DetSign, Doubt, DoubtKind, EarlierAspects, EarlierDomain, FORMAT_VERSION,
     LegReport, ModeReport, Place, Reachable, Run, Sample,
 };

@@ -33,6 +33,8 @@ pub struct Analysis {
     pub modes: Vec<ModeReport>,
     /// Table 2: one class per working mode and sign of det A, in the order of the modes, + before −.
     pub classes: Vec<AspectClass>,
+    /// What keeps the bounds apart, where they do not meet; empty if they do.
+    pub doubts: Vec<Doubt>,
     /// Definition 5 applied to this robot: what figures 6 and 7 show. Two entries, det A > 0 and < 0.
     pub parallel_aspects: Vec<EarlierAspects>,
     /// Definition 6 applied to this robot: domains of constant sign of the B_jj, one entry a mode.
@@ -94,6 +96,37 @@ pub struct Count {
     pub high: Option<usize>,
     /// Whether the bounds are equal: exactly `low`.
     pub certified: bool,
+}
+
+/// Why the bounds on the number of aspects of a class do not meet.
+#[derive(Clone, Debug, Serialize)]
+pub struct Doubt {
+    /// The working mode.
+    pub mode: WorkingMode,
+    /// The sign of det A.
+    pub det_a: DetSign,
+    /// What is not decided.
+    pub kind: DoubtKind,
+    /// In how many boxes.
+    pub boxes: usize,
+    /// Their measure, in pose coordinates.
+    pub measure: f64,
+    /// The largest of them: a range per coordinate, of the pose or, if `fold` is set, of that leg's own coordinates.
+    pub place: Vec<(f64, f64)>,
+    /// The leg (from 1) in whose own coordinates `place` is.
+    pub fold: Option<usize>,
+    /// The functions whose signs are not decided there: `det A`, `H_1` (serial singularity of leg 1), `limit 1 of leg 2`.
+    pub undecided: Vec<String>,
+}
+
+/// Kinds of [`Doubt`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum DoubtKind {
+    /// A whole aspect could hide in the boxes: no upper bound is proved.
+    Hidden,
+    /// Inner cells on their two sides may belong to one aspect or to two.
+    Unjoined,
 }
 
 /// The sign of det A.

@@ -23,11 +23,12 @@
 //!
 //! n in all, along which everything is bounded with h_j ∈ [0, h̄_j] as a variable of its own.
 
+use super::saddle::no_local_maximum;
 use super::scale::Scale;
 use crate::kinematics::WorkingMode;
 use crate::kinematics::limits::{margin, unit};
 use crate::kinematics::modal::LegClosure;
-use crate::kinematics::placement::{cofactors, out_of_frame, wrench};
+use crate::kinematics::placement::{Placement, cofactors, out_of_frame, wrench};
 use crate::num::{Interval, Jet, LANES, Mask, Pack, Scalar, Slope, each};
 use crate::paving::{ClassSet, Paving};
 use crate::robot::Robot;
@@ -51,30 +52,54 @@ pub(super) fn summitless<const D: usize, const N: usize, const M: usize>(
     boxes: &[(u32, ClassSet)],
 ) -> [ClassSet; LANES] {
     let view = View::<D, N, M>::new(robot, paving, &std::array::from_fn(|l| boxes[l.min(boxes.len() - 1)].0));
-    let frames: [Option<Frame<N, M>>; LANES] =
-        std::array::from_fn(|l| if view.usable[l] { Frame::new(&view, l, scale) } else { None });
-    let any = boxes.iter().fold(0, |any, b| any | b.1);
-    let mut proved = [0; LANES];
-    for (m, &mode) in paving.modes.iter().enumerate().filter(|(m, _)| any >> (2 * m) & 3 != 0) {
-        let det = view.determinant(mode);
-        for (l, &(_, asked)) in boxes.iter().enumerate().filter(|(_, b)| b.1 >> (2 * m) & 3 != 0) {
-            let Some(frame) = &frames[l] else { continue };
-            let common = view.constraints(robot, scale, frame, mode, l);
-            let det = Growth {
-                value: det.value.lane(l) / Interval::point(scale.det),
-                along: frame.along(
-                    &det.gradient.map(|g| g.lane(l)),
-                    &std::array::from_fn::<_, N, _>(|j| (j, f64::from(mode.sign(j)), det.own[j].lane(l))),
-                ),
-            };
-            for (sign, bit) in [(1.0, 1 << (2 * m)), (-1.0, 2 << (2 * m))] {
-                if asked & bit != 0 && can_climb(&common, &det.signed(sign)) {
-                    proved[l] |= bit;
-                }
+    let mut asked = [0; LANES];
+    (0..boxes.len()).filter(|&l| view.usable[l]).for_each(|l| asked[l] = boxes[l].1);
+    let mut proved = view.look(robot, scale, &view.heights, &asked);
+    // Near a serial singularity h varies like the root of the box's width: cut its range and look at each part.
+    let left: [ClassSet; LANES] = std::array::from_fn(|l| asked[l] & !proved[l]);
+    let singular = view.singular(&left);
+    if singular.contains(&true) {
+        let mut held = left;
+        for heights in parts(&view.heights, &singular) {
+            let found = view.look(robot, scale, &heights, &held);
+            (0..LANES).for_each(|l| held[l] &= found[l]);
+            if held == [0; LANES] {
+                break;
             }
+        }
+        (0..LANES).for_each(|l| proved[l] |= held[l]);
+    }
+    for (l, &(node, _)) in boxes.iter().enumerate().filter(|(_, b)| u32::from(paving.nodes[b.0 as usize].depth) >= DEEP) {
+        let left = asked[l] & !proved[l];
+        for (m, &mode) in paving.modes.iter().enumerate().filter(|(m, _)| left >> (2 * m) & 3 != 0) {
+            proved[l] |= left & view.saddles::<D>(robot, scale, node, l, (m, mode));
         }
     }
     proved
+}
+
+/// From this depth on the second-order test is tried: double points of det A = 0 are rare, and it costs more.
+const DEEP: u32 = 9;
+
+/// The ranges of h, those of the marked legs cut into parts, in all combinations.
+fn parts<const N: usize>(heights: &[Pack; N], cut: &[bool; N]) -> impl Iterator<Item = [Pack; N]> {
+    let heights = *heights;
+    let cuts: ArrayVec<usize, N> = (0..N).filter(|&j| cut[j]).collect();
+    let each = [1, 4, 3, 2][cuts.len().min(3)];
+    (0..usize::pow(each, cuts.len() as u32)).map(move |mut index| {
+        let mut part = heights;
+        for &j in &cuts {
+            let (k, of) = ((index % each) as f64, each as f64);
+            index /= each;
+            part[j] = Pack::from_fn(|l| {
+                let whole = heights[j].lane(l);
+                // The same formula for the end of one part and the start of the next: no gap.
+                let at = |k: f64| if k == of { whole.hi } else { whole.lo + (whole.hi - whole.lo) * (k / of) };
+                Interval::new(at(k), at(k + 1.0))
+            });
+        }
+        part
+    })
 }
 
 /// A constraint over a box: its scaled values and its derivatives along the vectors of the frame.
@@ -158,17 +183,28 @@ fn add<const M: usize>(v: &mut [f64; M], w: &[f64; M], weight: &[f64; M]) -> boo
 struct View<'a, const D: usize, const N: usize, const M: usize> {
     paving: &'a Paving,
     boxes: [u32; LANES],
+    placement: Placement<Form<M>, D>,
     legs: [LegClosure<Form<M>, D>; N],
     /// H_j and its gradient.
     reach: [Field<M>; N],
-    /// Per leg, posture and limit: the margin.
-    limits: [[Vec<Limited<M>>; 2]; N],
-    /// Rows of A for both postures.
-    rows: [[[Form<M>; N]; 2]; N],
+    /// The range of h_j.
+    heights: [Pack; N],
+    /// The parts of ∂f/∂d: fixed + s h swing.
+    fixed: [[Form<M>; D]; N],
+    swing: [[Form<M>; D]; N],
     /// Which legs have a serial singularity with a root in it.
     rooted: [bool; N],
     /// Lanes in which every row of A is bounded.
     usable: Mask,
+}
+
+/// What depends on the range of h too.
+struct Part<const N: usize, const M: usize> {
+    /// Rows of A for both postures.
+    rows: [[[Form<M>; N]; 2]; N],
+    /// Per leg, posture and limit: the margin.
+    limits: [[Vec<Limited<M>>; 2]; N],
+    heights: [Pack; N],
 }
 
 /// Values and gradient of a function over eight boxes.
@@ -176,6 +212,17 @@ struct View<'a, const D: usize, const N: usize, const M: usize> {
 struct Field<const M: usize> {
     value: Pack,
     gradient: [Pack; M],
+}
+
+impl<const N: usize, const M: usize> Determinant<N, M> {
+    /// In one box.
+    fn growth(&self, frame: &Frame<N, M>, mode: WorkingMode, scale: &Scale, lane: usize) -> Growth<M> {
+        let own: [_; N] = std::array::from_fn(|j| (j, f64::from(mode.sign(j)), self.own[j].lane(lane)));
+        Growth {
+            value: self.value.lane(lane) / Interval::point(scale.det),
+            along: frame.along(&self.gradient.map(|g| g.lane(lane)), &own),
+        }
+    }
 }
 
 /// A limit's margin: it depends on its leg's s h too.
@@ -222,46 +269,138 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
         });
         let (placement, legs) = paving.chart.at::<Form<M>, D, N>(robot, &y, |k| y[k].sin_cos());
         let mut usable = [true; LANES];
-        let rooted =
-            std::array::from_fn(|j| legs[j].fold.is_none() && robot.legs[j].actuator.postures() == 2);
-        let mut rows = [[[Form::zero(); N]; 2]; N];
-        let mut limits: [[Vec<Limited<M>>; 2]; N] = std::array::from_fn(|_| Default::default());
+        let mut fixed = [[Form::zero(); D]; N];
+        let mut swing = [[Form::zero(); D]; N];
         for (j, leg) in robot.legs.iter().enumerate() {
             let closure = &legs[j].closure;
-            let heights = if rooted[j] {
-                let h = closure.reach.value.tightened().sqrt();
-                [h, -h].map(|sh| Form::variable(sh, OWN))
-            } else {
-                legs[j].heights()
-            };
+            (fixed[j], swing[j]) = (closure.fixed, closure.swing);
             // Rows of A itself, not times the weight: what varies least is enclosed best.
-            let (mut fixed, mut swing) = (closure.fixed, closure.swing);
             if legs[j].is_weighted(leg) {
                 let weight = closure.weight.tightened();
                 let positive = weight.value.range.positive();
                 (0..LANES).for_each(|l| usable[l] &= positive[l]);
                 let inverse = (Form::constant(Interval::point(1.0)) / weight).tightened();
-                fixed = each!(|k| (fixed[k].tightened() * inverse).tightened());
-                swing = each!(|k| (swing[k].tightened() * inverse).tightened());
+                let by_weight = |v: &[Form<M>; D]| each!(|k| (v[k].tightened() * inverse).tightened());
+                (fixed[j], swing[j]) = (by_weight(&closure.fixed), by_weight(&closure.swing));
             }
+        }
+        let rooted =
+            std::array::from_fn(|j| legs[j].fold.is_none() && robot.legs[j].actuator.postures() == 2);
+        let reach: [Field<M>; N] = std::array::from_fn(|j| Field::of(&legs[j].closure.reach));
+        let heights = each!(|j| reach[j].value.sqrt());
+        Self { paving, boxes: *boxes, placement, legs, reach, heights, fixed, swing, rooted, usable }
+    }
+
+    /// The legs that are singular in some box in which something is asked.
+    fn singular(&self, asked: &[ClassSet; LANES]) -> [bool; N] {
+        std::array::from_fn(|j| {
+            self.rooted[j]
+                && (0..LANES).any(|l| asked[l] != 0 && is_singular(self.reach[j].value.lane(l)))
+        })
+    }
+
+    /// Of the classes asked, those without a summit where the h_j are in the given ranges.
+    fn look(
+        &self,
+        robot: &Robot,
+        scale: &Scale,
+        heights: &[Pack; N],
+        asked: &[ClassSet; LANES],
+    ) -> [ClassSet; LANES] {
+        let part = self.part(robot, heights);
+        let frames: [ArrayVec<Frame<N, M>, 2>; LANES] = std::array::from_fn(|l| {
+            if asked[l] == 0 { ArrayVec::new() } else { self.frames(&part, l, scale) }
+        });
+        let any = asked.iter().fold(0, |any, classes| any | classes);
+        let mut proved = [0; LANES];
+        for (m, &mode) in self.paving.modes.iter().enumerate().filter(|(m, _)| any >> (2 * m) & 3 != 0) {
+            let det = self.determinant(&part, mode);
+            for l in (0..LANES).filter(|&l| asked[l] >> (2 * m) & 3 != 0) {
+                for frame in &frames[l] {
+                    let common = self.constraints(robot, scale, &part, frame, mode, l);
+                    let det = det.growth(frame, mode, scale, l);
+                    for (sign, bit) in [(1.0, 1 << (2 * m)), (-1.0, 2 << (2 * m))] {
+                        if asked[l] & !proved[l] & bit != 0 && can_climb(&common, &det.signed(sign)) {
+                            proved[l] |= bit;
+                        }
+                    }
+                    if asked[l] & !proved[l] & (3 << (2 * m)) == 0 {
+                        break;
+                    }
+                }
+            }
+        }
+        proved
+    }
+
+    /// The classes of a mode without a summit in one box by the second-order test ([`no_local_maximum`]).
+    fn saddles<const SPACE: usize>(
+        &self,
+        robot: &Robot,
+        scale: &Scale,
+        node: u32,
+        lane: usize,
+        (m, mode): (usize, WorkingMode),
+    ) -> ClassSet {
+        let part = self.part(robot, &self.heights);
+        let Some(frame) = Frame::new(self, &part, lane, [false; N]) else { return 0 };
+        let least = self
+            .constraints(robot, scale, &part, &frame, mode, lane)
+            .iter()
+            .fold(f64::INFINITY, |least, g| least.min(g.value.lo));
+        let det = self.determinant(&part, mode).growth(&frame, mode, scale, lane).value;
+        if !(det.magnitude() < least) {
+            return 0;
+        }
+        let [plus, minus] = no_local_maximum::<SPACE, N, M>(robot, self.paving, node, mode);
+        (ClassSet::from(plus) | ClassSet::from(minus) << 1) << (2 * m)
+    }
+
+    /// Frames to try. A frame is valid whichever legs are counted as singular, as long as all are that can be; it is mostly better
+    /// if all are that nearly are, because ∇det A is then nearly parallel to ∇H_j.
+    fn frames(&self, part: &Part<N, M>, lane: usize, scale: &Scale) -> ArrayVec<Frame<N, M>, 2> {
+        let reach = |j: usize| self.reach[j].value.lane(lane);
+        let must: [bool; N] = std::array::from_fn(|j| self.rooted[j] && is_singular(reach(j)));
+        let may: [bool; N] =
+            std::array::from_fn(|j| must[j] || self.rooted[j] && reach(j).hi <= NEARLY * scale.reach[j]);
+        let mut choices: ArrayVec<[bool; N], 2> = [may].into_iter().collect();
+        if may != must {
+            choices.push(must);
+        }
+        choices.into_iter().filter_map(|singular| Frame::new(self, part, lane, singular)).collect()
+    }
+
+    fn part(&self, robot: &Robot, heights: &[Pack; N]) -> Part<N, M> {
+        let mut rows = [[[Form::zero(); N]; 2]; N];
+        let mut limits: [[Vec<Limited<M>>; 2]; N] = std::array::from_fn(|_| Default::default());
+        for (j, leg) in robot.legs.iter().enumerate() {
+            let signed = if self.rooted[j] {
+                // H need not be above zero at the centre: h's own slopes are of no use near a singularity.
+                let whole = |range| Slope { range, centre: range, slope: [Pack::zero(); M] };
+                let smooth = self.legs[j].closure.reach.value.tightened().sqrt();
+                let h = if is_whole(&heights[j], &self.heights[j]) { smooth } else { whole(heights[j]) };
+                [h, -h].map(|sh| Form::variable(sh, OWN))
+            } else {
+                self.legs[j].heights()
+            };
+            let at = self.legs[j].limited(leg);
             for (posture, row) in rows[j].iter_mut().enumerate() {
-                let g: [Form<M>; D] = match rooted[j] {
-                    true => each!(|k| fixed[k] + heights[posture] * swing[k]),
-                    false => fixed,
+                let sh = signed[posture];
+                let g: [Form<M>; D] = match self.rooted[j] {
+                    true => each!(|k| self.fixed[j][k] + sh * self.swing[j][k]),
+                    false => self.fixed[j],
                 };
-                let whole: [Form<M>; N] = wrench(robot.platform, &out_of_frame(leg, &g), &legs[j].arm);
-                *row = each!(|k| whole[k].tightened());
-                let at = legs[j].limited(leg);
+                let row_of_a: [Form<M>; N] =
+                    wrench(robot.platform, &out_of_frame(leg, &g), &self.legs[j].arm);
+                *row = each!(|k| row_of_a[k].tightened());
                 for limit in &leg.limits {
-                    let sh = heights[posture];
-                    let inside = margin(limit, &at, sh, &placement) / unit(limit, &at, sh);
+                    let inside = margin(limit, &at, sh, &self.placement) / unit(limit, &at, sh);
                     limits[j][posture]
                         .push(Limited { field: Field::of(&inside), own: range(inside.gradient[OWN]) });
                 }
             }
         }
-        let reach = std::array::from_fn(|j| Field::of(&legs[j].closure.reach));
-        Self { paving, boxes: *boxes, legs, reach, limits, rows, rooted, usable }
+        Part { rows, limits, heights: *heights }
     }
 
     /// All constraints but det A, in one box.
@@ -269,6 +408,7 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
         &self,
         robot: &Robot,
         scale: &Scale,
+        part: &Part<N, M>,
         frame: &Frame<N, M>,
         mode: WorkingMode,
         lane: usize,
@@ -280,9 +420,10 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
         for (j, leg) in robot.legs.iter().enumerate() {
             let sign = f64::from(mode.sign(j));
             if leg.actuator.postures() == 2 {
-                add(self.reach[j].value.lane(lane), scale.reach[j], self.reach_along(frame, j, sign, lane));
+                let reach = self.reach[j].value.lane(lane).meet(part.heights[j].lane(lane).square());
+                add(reach, scale.reach[j], self.reach_along(frame, j, sign, lane));
             }
-            let limits = &self.limits[j][usize::from(mode.sign(j) < 0)];
+            let limits = &part.limits[j][usize::from(mode.sign(j) < 0)];
             for (limit, &scale) in limits.iter().zip(&scale.limits[j]) {
                 let own = (j, sign, limit.own.lane(lane));
                 let along = frame.along(&limit.field.gradient_in(lane), &[own]);
@@ -319,10 +460,10 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
         }
     }
 
-    fn determinant(&self, mode: WorkingMode) -> Determinant<N, M> {
+    fn determinant(&self, part: &Part<N, M>, mode: WorkingMode) -> Determinant<N, M> {
         let posture = |j: usize| usize::from(mode.sign(j) < 0);
         let rows: [[Slope<Pack, M>; N]; N] =
-            std::array::from_fn(|j| each!(|i| self.rows[j][posture(j)][i].value));
+            std::array::from_fn(|j| each!(|i| part.rows[j][posture(j)][i].value));
         let mut minors = cofactors(&rows);
         for minor in minors.as_flattened_mut() {
             *minor = minor.tightened();
@@ -332,7 +473,7 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
             det = det + rows[0][i] * minors[0][i];
         }
         let partial = |j: usize, k: usize| {
-            let row = &self.rows[j][posture(j)];
+            let row = &part.rows[j][posture(j)];
             let mut sum = minors[j][0] * row[0].gradient[k];
             for i in 1..N {
                 sum = sum + minors[j][i] * row[i].gradient[k];
@@ -360,6 +501,15 @@ fn each_interval<const M: usize>(f: impl Fn(usize) -> Interval) -> [Interval; M]
 /// A leg is nearly singular in a box if its H, relative to its scale, is less than this.
 const NEARLY: f64 = 0.3;
 
+/// Whether H may vanish, or nearly.
+fn is_singular(reach: Interval) -> bool {
+    reach.lo <= 0.1 * reach.hi
+}
+
+fn is_whole(part: &Pack, whole: &Pack) -> bool {
+    part.lo == whole.lo && part.hi == whole.hi
+}
+
 /// M tangent vectors over a box, adapted to its singular legs.
 struct Frame<const N: usize, const M: usize> {
     /// Their components in the scaled coordinates.
@@ -371,16 +521,14 @@ struct Frame<const N: usize, const M: usize> {
 }
 
 impl<const N: usize, const M: usize> Frame<N, M> {
-    /// `None` if more legs are singular in the box than there are coordinates.
-    fn new<const D: usize>(view: &View<'_, D, N, M>, lane: usize, scale: &Scale) -> Option<Self> {
+    /// `None` if more legs are singular than there are coordinates.
+    fn new<const D: usize>(
+        view: &View<'_, D, N, M>,
+        part: &Part<N, M>,
+        lane: usize,
+        singular: [bool; N],
+    ) -> Option<Self> {
         let half = Interval::point(0.5);
-        let reaches: [Interval; N] = std::array::from_fn(|j| view.reach[j].value.lane(lane));
-        // The frame is valid whichever legs are counted as singular, as long as all are that can be; it is better if all are that
-        // nearly are, because ∇det A is then nearly parallel to ∇H_j.
-        let must: [bool; N] = std::array::from_fn(|j| view.rooted[j] && reaches[j].lo <= 0.1 * reaches[j].hi);
-        let may: [bool; N] =
-            std::array::from_fn(|j| must[j] || view.rooted[j] && reaches[j].hi <= NEARLY * scale.reach[j]);
-        let singular = if may.iter().filter(|s| **s).count() > M { must } else { may };
         let legs: ArrayVec<usize, N> = (0..N).filter(|&j| singular[j]).collect();
         if legs.len() > M {
             return None;
@@ -388,7 +536,7 @@ impl<const N: usize, const M: usize> Frame<N, M> {
         let gradients: [[Interval; M]; N] = std::array::from_fn(|j| view.reach[j].gradient_in(lane));
         let normals: ArrayVec<[Interval; M], M> = legs.iter().map(|&j| gradients[j]).collect();
         let (directions, own) = adapted(&normals)?;
-        let heights: [Interval; N] = std::array::from_fn(|j| reaches[j].sqrt());
+        let heights: [Interval; N] = std::array::from_fn(|j| part.heights[j].lane(lane));
         let mut vectors = directions;
         let mut climb = [[Interval::point(0.0); N]; M];
         for i in 0..M {

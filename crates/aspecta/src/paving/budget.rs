@@ -27,23 +27,27 @@ pub const MAX_BOXES: u64 = 40_000_000;
 pub const PAVING_SHARE: f64 = 0.4;
 
 impl Budget {
-    /// The depth at which this budget ends in `window`: the one asked for or that of the resolution, whichever is
-    /// met first; 16, 11 or 8 where 1, 2 or 3 coordinates vary (a few seconds of work) if nothing is asked for at all, some
-    /// levels more if only time or boxes are given.
-    pub(super) fn depth_in(&self, window: &Window) -> u32 {
+    /// The depth at which this budget ends in `window`, if it names one: the depth asked for or that of the resolution, whichever is
+    /// met first.
+    pub fn finest(&self, window: &Window) -> Option<u32> {
         let lengths = window.ranges.iter().zip(&window.angles).filter(|(_, angle)| !**angle);
         let widest = lengths.map(|(r, _)| r.1 - r.0).fold(0.0, f64::max);
         // A robot without lengths has no resolution to reach.
         let resolution = self.resolution.filter(|_| widest > 0.0);
         let finest = resolution.map(|r| (widest / r).log2().ceil().max(1.0) as u32);
-        let (usual, deep) = match window.axes().len() {
-            1 => (16, MAX_DEPTH),
-            2 => (11, 14),
-            _ => (8, 11),
-        };
-        let open = self.seconds.is_some() || self.boxes.is_some();
-        let asked = self.depth.into_iter().chain(finest).min();
-        asked.unwrap_or(if open { deep } else { usual }).clamp(1, MAX_DEPTH)
+        self.depth.into_iter().chain(finest).min().map(|depth| depth.clamp(1, MAX_DEPTH))
+    }
+
+    /// The budget of an even paving to start a search with: to the depth asked for; to depth 16 on a line, 9 in the plane and 5 in
+    /// space if none is.
+    pub fn even(&self, window: &Window) -> Self {
+        let usual = [16, 9, 5][window.axes().len().clamp(1, 3) - 1];
+        Self { depth: Some(self.finest(window).unwrap_or(usual)), ..*self }
+    }
+
+    /// The depth of an even paving: that of [`Budget::finest`], or 16 on a line, 11 in the plane and 8 in space.
+    pub(super) fn depth_in(&self, window: &Window) -> u32 {
+        self.finest(window).unwrap_or([16, 11, 8][window.axes().len().clamp(1, 3) - 1])
     }
 }
 
@@ -77,6 +81,8 @@ impl Control<'_> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Stop {
+    /// The bounds on the number of aspects met.
+    Exact,
     /// The resolution asked for was reached, or nothing was left undecided.
     Resolution,
     /// The box budget was spent.

@@ -2,6 +2,7 @@
 
 use crate::kinematics::WorkingMode;
 use crate::kinematics::chart::Chart;
+use crate::num::Interval;
 use crate::robot::Window;
 
 /// A set of classes, one bit each: bit 2m for mode m and det A > 0, bit 2m + 1 for mode m and det A < 0.
@@ -152,6 +153,36 @@ impl Paving {
             Mark::Open if self.nodes[at as usize].first_child == 0 => visit(at),
             Mark::Open => self.children(at).for_each(|child| self.walk(child, sight, visit)),
         }
+    }
+
+    /// Visits the boxes of a set (as in [`Paving::boxes_of`]) that may share a point with a box of poses.
+    pub fn meeting(&self, sight: &impl Fn(&Node) -> Mark, poses: &[Interval], visit: &mut impl FnMut(u32)) {
+        self.descend(0, sight, poses, visit);
+    }
+
+    fn descend(
+        &self,
+        at: u32,
+        sight: &impl Fn(&Node) -> Mark,
+        poses: &[Interval],
+        visit: &mut impl FnMut(u32),
+    ) {
+        let (lo, hi) = self.bounds(at);
+        let meets = self.axes.iter().enumerate().all(|(a, &k)| poses[k].lo <= hi[a] && lo[a] <= poses[k].hi);
+        match sight(&self.nodes[at as usize]) {
+            _ if !meets => {}
+            Mark::Outside => {}
+            Mark::Open if self.nodes[at as usize].first_child != 0 => {
+                self.children(at).for_each(|child| self.descend(child, sight, poses, visit));
+            }
+            _ => visit(at),
+        }
+    }
+
+    /// Whether all the poses lie in a box.
+    pub fn holds(&self, node: u32, poses: &[Interval]) -> bool {
+        let (lo, hi) = self.bounds(node);
+        self.axes.iter().enumerate().all(|(a, &k)| lo[a] <= poses[k].lo && poses[k].hi <= hi[a])
     }
 
     /// The box (as in [`Paving::boxes_of`], or one outside the set) that holds the pose, and whether the pose lies in

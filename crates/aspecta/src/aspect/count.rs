@@ -1,0 +1,209 @@
+//! The count of one class: bounds from the two graphs, and where they are kept apart.
+
+use super::ascent::{Class, Join, merge};
+use super::atlas::{Atlas, Leaf};
+use super::components::{Components, UnionFind};
+use crate::paving::{ClassSet, Control, Mark, Node};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+
+/// The components of a class and what is proved of their number.
+pub(super) struct Counted {
+    pub components: Components,
+    /// One entry per component of G⁺ that holds an inside box: at least one aspect each.
+    pub found: Vec<Group>,
+    /// Whether no aspect can hide in an undecided box: then there are at most as many aspects as summits, all told.
+    pub closed: bool,
+    /// The paths that joined pieces.
+    pub joins: Vec<Join>,
+    /// Boxes found to have no summit, for the atlas to remember.
+    pub summitless: Vec<Leaf>,
+    /// Undecided boxes half-way between pieces that were not joined: finer ones would part or join them.
+    pub between: Vec<Leaf>,
+}
+
+/// A component of G⁺ that holds an inside box.
+pub(super) struct Group {
+    /// Its name in [`Components::component_of`].
+    pub component: u32,
+    /// Its pieces of inside boxes.
+    pub pieces: Vec<u32>,
+    /// In how many parts, not joined, an aspect may have its summit: at most this many aspects, if the class is closed.
+    pub summits: usize,
+}
+
+impl Counted {
+    /// At most so many aspects.
+    pub(super) fn high(&self) -> Option<usize> {
+        self.closed.then(|| self.found.iter().map(|group| group.summits).sum())
+    }
+
+    /// Whether the bounds meet.
+    pub(super) fn is_exact(&self) -> bool {
+        self.high() == Some(self.found.len())
+    }
+}
+
+/// Most boxes of a piece that are searched for a summit at once.
+const SEARCHED: usize = 1 << 14;
+
+/// Counts a class.
+pub(super) fn count(atlas: &Atlas<'_>, class: Class, control: &Control<'_>) -> Counted {
+    let sight = |node: &Node| node.of_classes(class.bit);
+    let components = Components::new(atlas.robot, &atlas.sheets, &sight);
+    let mut summitless = Vec::new();
+    let fertile = fertile(atlas, class.bit, &components, &mut summitless);
+    let (mut joined, joins) = merge(atlas.robot, &atlas.sheets[0], class, &components, &fertile, control);
+    let mut groups = BTreeMap::<u32, Vec<u32>>::new();
+    for (k, piece) in components.pieces.iter().enumerate() {
+        groups.entry(piece.component).or_default().push(k as u32);
+    }
+    let group = |(component, pieces): (u32, Vec<u32>)| {
+        let tops = pieces.iter().filter(|&&k| fertile[k as usize]).map(|&k| joined.root(k));
+        let summits = tops.collect::<BTreeSet<u32>>().len().max(1);
+        Group { component, pieces, summits }
+    };
+    let found: Vec<Group> = groups.into_iter().map(group).collect();
+    let closed = components.boxes.iter().all(|&leaf| atlas.open(leaf) & class.bit == 0);
+    let between = if found.iter().any(|group| group.summits > 1) {
+        let label = |piece: u32| fertile[piece as usize].then_some(piece);
+        between(atlas, &sight, &found, &label, &mut joined)
+    } else {
+        Vec::new()
+    };
+    Counted { components, found, closed, joins, summitless, between }
+}
+
+/// Which pieces may hold a summit of an aspect. The largest piece of a component is not searched.
+fn fertile(
+    atlas: &Atlas<'_>,
+    bit: ClassSet,
+    components: &Components,
+    summitless: &mut Vec<Leaf>,
+) -> Vec<bool> {
+    let pieces = &components.pieces;
+    let mut boxes: Vec<Vec<Leaf>> = vec![Vec::new(); pieces.len()];
+    for (i, piece) in components.piece_of.iter().enumerate() {
+        // Covered boxes have their summits in the chart that covers them.
+        if let (Some(piece), Some(_)) = (piece, components.component_of[i]) {
+            let leaf = components.boxes[i];
+            if atlas.sheets[leaf.0].nodes[leaf.1 as usize].summitless & bit == 0 {
+                boxes[*piece as usize].push(leaf);
+            }
+        }
+    }
+    let mut largest = BTreeMap::<u32, usize>::new();
+    for (k, piece) in pieces.iter().enumerate() {
+        let best = largest.entry(piece.component).or_insert(k);
+        if piece.measure > pieces[*best].measure {
+            *best = k;
+        }
+    }
+    let alone = |k: usize| pieces.iter().filter(|p| p.component == pieces[k].component).take(2).count() == 1;
+    (0..pieces.len())
+        .map(|k| {
+            if boxes[k].is_empty() {
+                return false;
+            }
+            if largest[&pieces[k].component] == k || boxes[k].len() > SEARCHED || alone(k) {
+                return true;
+            }
+            let mut all = true;
+            for sheet in 0..atlas.sheets.len() {
+                let asked: Vec<(u32, ClassSet)> =
+                    boxes[k].iter().filter(|leaf| leaf.0 == sheet).map(|leaf| (leaf.1, bit)).collect();
+                for (&(node, _), proved) in asked.iter().zip(atlas.summitless(sheet, &asked)) {
+                    if proved & bit != 0 {
+                        summitless.push((sheet, node));
+                    } else {
+                        all = false;
+                    }
+                }
+            }
+            !all
+        })
+        .collect()
+}
+
+/// The undecided boxes at which the neighbourhoods of unjoined pieces meet: G⁺ is flooded from all pieces of a component at
+/// once, and the boxes are returned in which two floods run into each other, and those of the shortest way between them.
+fn between(
+    atlas: &Atlas<'_>,
+    sight: &impl Fn(&Node) -> Mark,
+    found: &[Group],
+    label: &impl Fn(u32) -> Option<u32>,
+    joined: &mut UnionFind,
+) -> Vec<Leaf> {
+    let torn: BTreeSet<u32> = found.iter().filter(|g| g.summits > 1).map(|g| g.component).collect();
+    let mut links: Vec<(u32, u32)> = Vec::new();
+    let components =
+        Components::with_links(atlas.robot, &atlas.sheets, sight, &mut |i, j| links.push((i, j)));
+    let in_torn = |i: u32| components.component_of[i as usize].is_some_and(|c| torn.contains(&c));
+    links.retain(|&(i, _)| in_torn(i));
+    // The boxes of a piece without a summit are one vertex.
+    let mut vertex = UnionFind::new(components.boxes.len());
+    let piece = |i: u32| components.piece_of[i as usize];
+    let mut first = BTreeMap::<u32, u32>::new();
+    for i in (0..components.boxes.len() as u32).filter(|&i| in_torn(i)) {
+        if let Some(p) = piece(i) {
+            vertex.union(*first.entry(p).or_insert(i), i);
+        }
+    }
+    let mut neighbours = BTreeMap::<u32, Vec<u32>>::new();
+    for &(i, j) in &links {
+        let (a, b) = (vertex.root(i), vertex.root(j));
+        if a != b {
+            neighbours.entry(a).or_default().push(b);
+            neighbours.entry(b).or_default().push(a);
+        }
+    }
+    let mut flood = BTreeMap::<u32, Reached>::new();
+    for (&p, &i) in &first {
+        if let Some(p) = label(p) {
+            let (root, colour) = (vertex.root(i), joined.root(p));
+            flood.insert(root, Reached { colour, distance: 0, from: root });
+        }
+    }
+    // Breadth first, but boxes proved inside cost nothing to cross.
+    let mut front: VecDeque<u32> = flood.keys().copied().collect();
+    while let Some(v) = front.pop_front() {
+        let Reached { colour, distance, .. } = flood[&v];
+        for &w in neighbours.get(&v).map_or(&[][..], Vec::as_slice) {
+            let free = piece(w).is_some();
+            let reached = Reached { colour, distance: distance + u32::from(!free), from: v };
+            if flood.get(&w).is_none_or(|known| reached.distance < known.distance) {
+                flood.insert(w, reached);
+                if free { front.push_front(w) } else { front.push_back(w) }
+            }
+        }
+    }
+    let mut met = BTreeSet::<u32>::new();
+    let mut shortest = BTreeMap::<(u32, u32), (u32, u32, u32)>::new();
+    for &(i, j) in &links {
+        let (a, b) = (vertex.root(i), vertex.root(j));
+        let (Some(from), Some(to)) = (flood.get(&a), flood.get(&b)) else { continue };
+        if from.colour != to.colour {
+            met.extend([i, j]);
+            let pair = (from.colour.min(to.colour), from.colour.max(to.colour));
+            let way = (from.distance + to.distance, a, b);
+            shortest.entry(pair).and_modify(|least| *least = way.min(*least)).or_insert(way);
+        }
+    }
+    // The shortest way from one to the other: if they are one, it leads there.
+    for (_, a, b) in shortest.into_values() {
+        for mut v in [a, b] {
+            while flood[&v].from != v {
+                met.insert(v);
+                v = flood[&v].from;
+            }
+        }
+    }
+    met.into_iter().filter(|&i| piece(i).is_none()).map(|i| components.boxes[i as usize]).collect()
+}
+
+/// How a box was reached by a flood.
+#[derive(Clone, Copy)]
+struct Reached {
+    colour: u32,
+    distance: u32,
+    from: u32,
+}
