@@ -1,6 +1,7 @@
 //! How a command ends.
 
 use aspecta::aspect::AnalysisError;
+use aspecta::certificate::CertificateError;
 use aspecta::kinematics::KinematicsError;
 use aspecta::motion::PathError;
 use aspecta::robot::FileError;
@@ -38,6 +39,9 @@ pub enum Failure {
     /// It cannot be analysed.
     #[error(transparent)]
     Analysis(#[from] AnalysisError),
+    /// The certificate cannot be read.
+    #[error(transparent)]
+    Certificate(#[from] CertificateError),
     /// The path cannot be checked.
     #[error(transparent)]
     Path(#[from] PathError),

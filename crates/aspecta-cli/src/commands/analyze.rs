@@ -1,6 +1,6 @@
 //! `aspecta analyze`: working modes and generalized aspects.
 
-use super::{budget, fix, summary};
+use super::{budget, fix, summary, watch};
 use crate::failure::{Answer, Failure};
 use crate::input;
 use crate::output::{self, note};
@@ -8,13 +8,9 @@ use aspecta::aspect::{Analysis, Options, analyze};
 use aspecta::paving::{Budget, Control, Progress, Stop};
 use aspecta_cli::report;
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
 use std::fs;
 use std::io::Write;
 use std::path::PathBuf;
-use std::process;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Duration;
 
 /// Arguments of `analyze`.
 #[derive(Args)]
@@ -52,19 +48,16 @@ impl Analyze {
                 .and_then(|()| fs::remove_file(&probe))
                 .map_err(Failure::in_directory(directory))?;
         }
-        if let Some(threads) = self.threads {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
-            pool.map_err(|e| Failure::Input(format!("--threads {threads}: {e}")))?;
-        }
-        watch_interrupts()?;
-        let bar = progress_bar();
+        watch::threads(self.threads)?;
+        watch::interrupts()?;
+        let bar = watch::progress_bar();
         let show = |p: Progress| {
             bar.set_length(p.total);
             bar.set_position(p.done);
             bar.set_message(p.stage);
         };
         let options = Options { budget: self.budget.unwrap_or_default(), fix };
-        let analysis = analyze(&robot, &options, &Control { cancelled: &CANCELLED, progress: &show })?;
+        let analysis = analyze(&robot, &options, &Control { cancelled: &watch::CANCELLED, progress: &show })?;
         bar.finish_and_clear();
         self.print(out, &analysis)?;
         if analysis.run.stop == Stop::Cancelled {
@@ -91,25 +84,4 @@ impl Analyze {
         }
         Ok(())
     }
-}
-
-static CANCELLED: AtomicBool = AtomicBool::new(false);
-
-/// The first Ctrl-C asks the work to stop and keep its result, the second ends the program.
-fn watch_interrupts() -> Result<(), Failure> {
-    let interrupted = || {
-        if CANCELLED.swap(true, Ordering::Relaxed) {
-            process::exit(130);
-        }
-        note("stopping; again to quit at once");
-    };
-    ctrlc::set_handler(interrupted).map_err(|e| Failure::Input(format!("cannot watch for Ctrl-C: {e}")))
-}
-
-/// On stderr, and only if that is a terminal.
-fn progress_bar() -> ProgressBar {
-    let style = ProgressStyle::with_template("{spinner} {elapsed} {wide_bar} {percent:>3} % {msg}");
-    let bar = ProgressBar::new(1).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-    bar.enable_steady_tick(Duration::from_millis(200));
-    bar
 }

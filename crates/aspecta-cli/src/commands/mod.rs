@@ -14,6 +14,8 @@ mod schema;
 mod solutions;
 mod state;
 mod summary;
+mod verify;
+mod watch;
 
 use crate::failure::{Answer, Failure};
 use clap::Subcommand;
@@ -24,6 +26,8 @@ use std::io::Write;
 pub enum Command {
     /// Working modes and generalized aspects of a robot, with certified bounds on their number
     Analyze(analyze::Analyze),
+    /// Check a certificate of the number of aspects, independently of what computed it
+    Verify(verify::Verify),
     /// All inverse solutions of a pose, one per working mode
     Ik(ik::Ik),
     /// All direct solutions of a joint vector
@@ -47,6 +51,7 @@ impl Command {
     pub fn run(self, out: &mut dyn Write) -> Result<Answer, Failure> {
         match self {
             Self::Analyze(command) => command.run(out),
+            Self::Verify(command) => command.run(out),
             Self::Ik(command) => command.run(out),
             Self::Fk(command) => command.run(out),
             Self::State(command) => command.run(out),

@@ -1,0 +1,130 @@
+//! `aspecta verify`: whether a certificate proves what it claims.
+
+use super::watch;
+use crate::failure::{Answer, Failure};
+use crate::input;
+use crate::output::{self, Align, Table, note};
+use aspecta::certificate::{Certificate, Claim};
+use aspecta::paving::{Control, Progress};
+use aspecta::robot::Robot;
+use aspecta::verify::{Checked, Verdict, verify};
+use clap::Args;
+use std::io::Write;
+use std::path::PathBuf;
+
+/// Arguments of `verify`.
+#[derive(Args)]
+pub struct Verify {
+    /// The certificate
+    file: PathBuf,
+    /// The robot that it should be about: a name from `aspecta robots`, or the path of a robot file
+    #[arg(long, value_name = "ROBOT")]
+    robot: Option<String>,
+    /// Print the verdict as JSON, and nothing else, on stdout
+    #[arg(long)]
+    json: bool,
+    /// Number of threads [default: all cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+}
+
+impl Verify {
+    pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
+        let certificate = Certificate::load(&self.file)?;
+        if let Some(name) = &self.robot {
+            let robot = input::robot(name)?;
+            if !is_same(&robot, &certificate.robot) {
+                note(&format!(
+                    "not verified: `{}` is about `{}`, which is not the robot `{name}` leg by leg",
+                    self.file.display(),
+                    certificate.robot.name
+                ));
+                return Ok(Answer::No);
+            }
+        }
+        watch::threads(self.threads)?;
+        watch::interrupts()?;
+        let bar = watch::progress_bar();
+        let show = |p: Progress| {
+            bar.set_length(p.total);
+            bar.set_position(p.done);
+            bar.set_message(p.stage);
+        };
+        let verdict = verify(&certificate, &Control { cancelled: &watch::CANCELLED, progress: &show });
+        bar.finish_and_clear();
+        if self.json {
+            output::json(out, &verdict)?;
+        } else {
+            print(out, &certificate, &verdict)?;
+        }
+        if !verdict.complete {
+            note("cancelled: nothing is verified");
+        }
+        Ok(Answer::from(verdict.is_verified()))
+    }
+}
+
+/// Whether two robots are the same for the arithmetic.
+fn is_same(a: &Robot, b: &Robot) -> bool {
+    (a.platform, &a.legs, &a.window) == (b.platform, &b.legs, &b.window)
+}
+
+fn print(out: &mut dyn Write, certificate: &Certificate, verdict: &Verdict) -> Result<(), Failure> {
+    let Verdict { sheets, leaves, claims, boxes, joins, seams, .. } = verdict;
+    writeln!(out, "certificate for {}: {leaves} leaves in {sheets} sheets", certificate.robot.name)?;
+    let held = certificate.window.held();
+    let names = certificate.robot.platform.coordinates();
+    for (k, value) in held {
+        writeln!(out, "  slice {} = {value}", names[k].name)?;
+    }
+    let (inside, outside, undecided) = (claims.inside, claims.outside, claims.undecided);
+    writeln!(out, "  claims: {inside} inside, {outside} outside, {undecided} undecided,")?;
+    writeln!(
+        out,
+        "    {} summitless, {} covered, {joins} joins, {seams} seams",
+        claims.summitless, claims.covered
+    )?;
+    writeln!(out, "  boxes examined: {boxes}")?;
+    if !verdict.classes.is_empty() {
+        write!(out, "\n{}", table(&verdict.classes))?;
+    }
+    writeln!(out)?;
+    for fault in &verdict.faults {
+        writeln!(out, "fault: {}", fault.in_words(&certificate.modes))?;
+    }
+    match verdict.is_verified() {
+        true => writeln!(out, "verified: {}", total(&certificate.claims))?,
+        false if verdict.complete => writeln!(out, "not verified")?,
+        false => {}
+    }
+    Ok(())
+}
+
+fn table(classes: &[Checked]) -> Table {
+    let columns = ["mode", "det A"].map(|name| (name.to_owned(), Align::Left));
+    let bounds = ["claimed", "proved"].map(|name| (name.to_owned(), Align::Right));
+    let mut table = Table::new(columns.into_iter().chain(bounds));
+    for class in classes {
+        let sign = if class.det_a > 0 { "  +" } else { "  -" };
+        table.row([class.mode.to_string(), sign.into(), range(class.claimed), range(class.proved)]);
+    }
+    table
+}
+
+fn range(claim: Claim) -> String {
+    match claim.high {
+        Some(high) if high == claim.low => format!("{high}"),
+        Some(high) => format!("{}..{high}", claim.low),
+        None => format!("≥ {}", claim.low),
+    }
+}
+
+/// All classes together.
+fn total(claims: &[Claim]) -> String {
+    let low: usize = claims.iter().map(|c| c.low).sum();
+    match claims.iter().map(|c| c.high).sum::<Option<usize>>() {
+        Some(high) if high == low => format!("exactly {low} generalized aspects"),
+        Some(high) => format!("at least {low} and at most {high} generalized aspects"),
+        None => format!("at least {low} generalized aspects"),
+    }
+}

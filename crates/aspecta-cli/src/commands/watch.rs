@@ -1,0 +1,37 @@
+//! How long work is watched and stopped.
+
+use crate::failure::Failure;
+use crate::output::note;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::process;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+/// Set by Ctrl-C, once [`interrupts`] is called.
+pub static CANCELLED: AtomicBool = AtomicBool::new(false);
+
+/// The first Ctrl-C asks the work to stop and keep its result, the second ends the program.
+pub fn interrupts() -> Result<(), Failure> {
+    let interrupted = || {
+        if CANCELLED.swap(true, Ordering::Relaxed) {
+            process::exit(130);
+        }
+        note("stopping; again to quit at once");
+    };
+    ctrlc::set_handler(interrupted).map_err(|e| Failure::Input(format!("cannot watch for Ctrl-C: {e}")))
+}
+
+/// On stderr, and only if that is a terminal.
+pub fn progress_bar() -> ProgressBar {
+    let style = ProgressStyle::with_template("{spinner} {elapsed} {wide_bar} {percent:>3} % {msg}");
+    let bar = ProgressBar::new(1).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    bar.enable_steady_tick(Duration::from_millis(200));
+    bar
+}
+
+/// Limits the work to a number of threads.
+pub fn threads(threads: Option<u16>) -> Result<(), Failure> {
+    let Some(threads) = threads else { return Ok(()) };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
+    pool.map_err(|e| Failure::Input(format!("--threads {threads}: {e}")))
+}

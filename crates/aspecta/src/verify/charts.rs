@@ -1,0 +1,143 @@
+//! Whether the charts cover what they must, and how they meet.
+
+use super::body::Body;
+use super::cells::Cells;
+use super::claims::halves;
+use super::view::{Coordinates, Setting, View};
+use crate::certificate::Certificate;
+use crate::kinematics::chart::{Chart, Fold};
+use crate::num::{Interval, Scalar};
+use crate::paving::ClassSet;
+use crate::robot::{Actuator, Platform, Robot, Window};
+
+/// The window of a chart, given that of the poses.
+pub(super) fn window_of(chart: &Chart, poses: &Window) -> Window {
+    let mut window = poses.clone();
+    if let Chart::Fold(fold) = chart {
+        let ranges =
+            [Some((-Interval::PI.hi, Interval::PI.hi)), Some((-fold.half_width, fold.half_width)), fold.axial];
+        for (k, range) in ranges.into_iter().enumerate().filter_map(|(k, range)| Some((k, range?))) {
+            window.ranges[k] = range;
+            window.glued[k] = k == 0;
+            window.angles[k] = k == 0;
+            window.cut[k] = (false, false);
+        }
+    }
+    window
+}
+
+/// The folds of a certificate, by sheet from 1.
+pub(super) fn folds(certificate: &Certificate) -> Vec<&Fold> {
+    let charts = certificate.sheets.iter().map(|sheet| &sheet.chart);
+    charts.filter_map(|chart| if let Chart::Fold(fold) = chart { Some(fold) } else { None }).collect()
+}
+
+/// What is wrong with the window of the poses.
+pub(super) fn fault_of_window(certificate: &Certificate) -> Option<String> {
+    let held: Vec<(usize, f64)> = certificate.window.held().collect();
+    match certificate.robot.slice(&held) {
+        Ok(window) if window == certificate.window => None,
+        Ok(_) => Some("the window is not the one that holds the workspace of the robot".into()),
+        Err(error) => Some(error.to_string()),
+    }
+}
+
+/// What is wrong with the chart of a fold.
+pub(super) fn fault_of_fold(robot: &Robot, poses: &Window, fold: &Fold) -> Option<&'static str> {
+    let translations = if robot.platform == Platform::TranslatingBody { 0..3 } else { 0..2 };
+    let whole = |k: usize| poses.ranges[k].0 < poses.ranges[k].1 && poses.cut[k] == (false, false);
+    if !translations.into_iter().all(whole) {
+        return Some("the chart of a fold, but a translation is held or cut by the window");
+    }
+    let actuator = Actuator::Revolute { crank: fold.crank, rod: fold.rod };
+    if robot.legs[fold.leg].actuator != actuator {
+        return Some("the lengths of the fold are not those of the robot's leg");
+    }
+    let widest = fold.axial.map_or(0.0, |(lo, hi)| lo.abs().max(hi.abs()));
+    let across = Interval::point(fold.half_width).square() + Interval::point(widest).square();
+    (across.hi >= 1.0).then_some("the chart of a fold reaches round to where the rod points outwards")
+}
+
+/// Most boxes into which a chart is cut to prove it disjoint from another.
+const EFFORT: usize = 100_000;
+
+/// Whether no configuration is in two charts of folds; `setting` is that of the chart of `fold`.
+pub(super) fn are_disjoint(setting: &Setting<'_>, fold: &Fold, other: &Fold) -> bool {
+    if fold.leg == other.leg {
+        return match (fold.axial, other.axial) {
+            (Some(a), Some(b)) => a.1 < b.0 || b.1 < a.0,
+            _ => false,
+        };
+    }
+    let range = |k: usize| setting.window.ranges.get(k).map_or(Interval::point(0.0), |r| Interval::new(r.0, r.1));
+    let mut open: Vec<Coordinates> = vec![std::array::from_fn(range)];
+    for _ in 0..EFFORT {
+        let Some(y) = open.pop() else { return true };
+        if !View::new(setting, y).is_clear_of(other) {
+            let (low, high) = halves(setting, &y);
+            open.extend([low, high]);
+        }
+    }
+    false
+}
+
+/// The poses of a box of a chart.
+pub(super) fn poses(setting: &Setting<'_>, y: &Coordinates) -> Coordinates {
+    let mut pose = *y;
+    match setting.robot.platform.space() {
+        2 => pose[..2].copy_from_slice(Body::<Interval, 2>::new(setting.robot, setting.chart, y).origin()),
+        _ => pose.copy_from_slice(Body::<Interval, 3>::new(setting.robot, setting.chart, y).origin()),
+    }
+    pose
+}
+
+/// Most times a face is halved to see what it touches.
+const HALVINGS: u32 = 12;
+
+/// The leaves of sheet 0 that a leaf of a fold may meet on the outer faces of the chart: those of p, and of w in space. They
+/// are not covered and have a class in common with it.
+pub(super) fn met_outside(setting: &Setting<'_>, cells: &Cells, leaf: usize, sheet_0: &Cells) -> Vec<usize> {
+    let claims = cells.leaves[leaf].claims;
+    let y = cells.of(leaf);
+    let mut found = Vec::new();
+    for k in 1..setting.robot.platform.space() {
+        let [low, high] = cells.at_ends(leaf, k);
+        for (_, end) in [(low, y[k].lo), (high, y[k].hi)].into_iter().filter(|(outer, _)| *outer) {
+            let mut face = y;
+            face[k] = Interval::point(end);
+            meet(setting, &face, claims.inside | claims.undecided, sheet_0, HALVINGS, &mut found);
+        }
+    }
+    found.sort_unstable();
+    found.dedup();
+    found
+}
+
+fn meet(
+    setting: &Setting<'_>,
+    face: &Coordinates,
+    classes: ClassSet,
+    sheet_0: &Cells,
+    halvings: u32,
+    found: &mut Vec<usize>,
+) {
+    let pose = poses(setting, face);
+    let mut here = Vec::new();
+    sheet_0.meeting(&pose, &mut |leaf| {
+        let claims = sheet_0.leaves[leaf].claims;
+        if !claims.covered && (claims.inside | claims.undecided) & classes != 0 {
+            here.push(leaf);
+        }
+    });
+    let small = here.iter().all(|&leaf| {
+        let cell = sheet_0.of(leaf);
+        (0..pose.len()).all(|k| pose[k].width() <= 0.5 * cell[k].width())
+    });
+    if small || halvings == 0 {
+        found.extend(here);
+        return;
+    }
+    let (low, high) = halves(setting, face);
+    meet(setting, &low, classes, sheet_0, halvings - 1, found);
+    meet(setting, &high, classes, sheet_0, halvings - 1, found);
+}

@@ -1,0 +1,147 @@
+//! What is claimed of a leaf, proved again by cutting it up.
+
+use super::view::{Coordinates, Existence, Setting, View};
+use crate::certificate::Leaf;
+use crate::kinematics::WorkingMode;
+use crate::kinematics::chart::Fold;
+use crate::num::Interval;
+use crate::paving::ClassSet;
+
+/// Most boxes into which the proof of a leaf is cut, before the claim counts as unproved.
+const EFFORT: usize = 20_000;
+
+/// Claims still to be proved in a box.
+#[derive(Clone, Copy, Debug, Default)]
+struct Needs {
+    inside: ClassSet,
+    outside: ClassSet,
+    summitless: ClassSet,
+    covered: bool,
+}
+
+impl Needs {
+    fn none(&self) -> bool {
+        self.inside | self.outside | self.summitless == 0 && !self.covered
+    }
+
+    /// The first class of which something is to be proved.
+    fn first(&self) -> Option<usize> {
+        let all = self.inside | self.outside | self.summitless;
+        (all != 0).then(|| all.trailing_zeros() as usize)
+    }
+}
+
+/// A claim that is wrong, or could not be proved.
+pub(super) struct Unproved {
+    /// The class, if the claim is about one.
+    pub class: Option<usize>,
+    pub reason: &'static str,
+}
+
+/// The sign of det A of a class.
+pub(super) fn sign_of(class: usize) -> f64 {
+    if class.is_multiple_of(2) { 1.0 } else { -1.0 }
+}
+
+/// Proves what is claimed of a leaf; returns how many boxes it was cut into.
+pub(super) fn prove(
+    setting: &Setting<'_>,
+    modes: &[WorkingMode],
+    folds: &[&Fold],
+    y: Coordinates,
+    claims: Leaf,
+) -> Result<usize, Unproved> {
+    let all = ((1u32 << (2 * modes.len())) - 1) as ClassSet;
+    // A covered leaf takes no part in G⁺ and hides no summit: the fold has its configurations.
+    let needs = Needs {
+        inside: claims.inside,
+        outside: if claims.covered { 0 } else { all & !(claims.inside | claims.undecided) },
+        summitless: if claims.covered { 0 } else { claims.summitless },
+        covered: claims.covered,
+    };
+    let mut open = vec![(y, needs)];
+    let mut spent = 0;
+    while let Some((y, mut needs)) = open.pop() {
+        if needs.none() {
+            continue;
+        }
+        spent += 1;
+        let doubt = settle(&View::new(setting, y), modes, folds, &mut needs)?;
+        if needs.none() {
+            continue;
+        }
+        if spent >= EFFORT {
+            let reason = if needs.covered { COVERED } else { doubt };
+            let class = if needs.covered { None } else { needs.first() };
+            return Err(Unproved { class, reason });
+        }
+        let (low, high) = halves(setting, &y);
+        open.extend([(high, needs), (low, needs)]);
+    }
+    Ok(spent)
+}
+
+const COVERED: &str = "claimed covered, but the chart of no fold is proved to hold all configurations";
+const NOT_INSIDE: &str = "claimed inside, but a leg may be out of reach here, or a limit broken";
+const VANISHES: &str = "claimed inside, but det A may vanish here";
+const NOT_OUTSIDE: &str = "claimed outside, but poses of the class may lie here";
+const SUMMIT: &str = "claimed summitless, but P may have a maximum here";
+
+/// Strikes from `needs` what is proved of a box, and says what is in doubt with the first of the rest.
+fn settle(
+    view: &View<'_>,
+    modes: &[WorkingMode],
+    folds: &[&Fold],
+    needs: &mut Needs,
+) -> Result<&'static str, Unproved> {
+    if needs.covered && (view.cannot_close() || folds.iter().any(|fold| view.is_covered_by(fold))) {
+        needs.covered = false;
+    }
+    let mut doubt = None;
+    for (m, &mode) in modes.iter().enumerate() {
+        let both: ClassSet = 3 << (2 * m);
+        if (needs.inside | needs.outside | needs.summitless) & both == 0 {
+            continue;
+        }
+        let existence = view.existence(mode);
+        let det = if existence == Existence::Nowhere { Interval::ENTIRE } else { view.determinant(mode) };
+        for class in [2 * m, 2 * m + 1] {
+            let bit: ClassSet = 1 << class;
+            let signed = det * Interval::point(sign_of(class));
+            let inside = existence == Existence::Everywhere && signed.is_positive();
+            let outside = existence == Existence::Nowhere || signed.hi <= 0.0;
+            let wrong = |reason| Err(Unproved { class: Some(class), reason });
+            match (needs.inside & bit != 0, needs.outside & bit != 0) {
+                (true, _) if outside => return wrong("claimed inside, but it is not"),
+                (_, true) if inside => return wrong("claimed outside, but it is inside"),
+                (true, _) if inside => needs.inside &= !bit,
+                (_, true) if outside => needs.outside &= !bit,
+                (true, _) if existence == Existence::Everywhere => doubt = doubt.or(Some(VANISHES)),
+                (true, _) => doubt = doubt.or(Some(NOT_INSIDE)),
+                (_, true) => doubt = doubt.or(Some(NOT_OUTSIDE)),
+                _ => {}
+            }
+            if needs.summitless & bit != 0 && (outside || view.is_summitless(mode, sign_of(class))) {
+                needs.summitless &= !bit;
+            } else if needs.summitless & bit != 0 {
+                doubt = doubt.or(Some(SUMMIT));
+            }
+        }
+    }
+    Ok(doubt.unwrap_or(COVERED))
+}
+
+/// A box cut in two across the coordinate in which it is widest, in proportion to the window.
+pub(super) fn halves(setting: &Setting<'_>, y: &Coordinates) -> (Coordinates, Coordinates) {
+    let ranges = &setting.window.ranges;
+    let share = |k: &usize| {
+        let whole = ranges[*k].1 - ranges[*k].0;
+        if whole > 0.0 { (y[*k].hi - y[*k].lo) / whole } else { 0.0 }
+    };
+    let widest = (0..ranges.len()).max_by(|a, b| share(a).total_cmp(&share(b))).unwrap_or(0);
+    let middle = y[widest].mid();
+    let (mut low, mut high) = (*y, *y);
+    low[widest].hi = middle;
+    high[widest].lo = middle;
+    (low, high)
+}

@@ -1,0 +1,180 @@
+//! The bounds that leaves and links prove.
+
+use super::graph::Sets;
+use super::links::Link;
+use super::view::View;
+use super::{Checked, Fault, Sheet, Verdict, charts};
+use crate::certificate::{Certificate, Claim, Leaf};
+use crate::kinematics::chart::Fold;
+use crate::num::Interval;
+use crate::paving::{ClassSet, Control, Progress};
+use crate::robot::Platform;
+use rayon::prelude::*;
+use std::f64::consts::FRAC_PI_2;
+
+/// All leaves, numbered through the sheets, and which pairs touch.
+struct Leaves<'a> {
+    sheets: &'a [Sheet<'a>],
+    /// The number of the first leaf of each sheet.
+    first: Vec<usize>,
+    all: Vec<Leaf>,
+    /// Pairs of one sheet whose boxes share a point.
+    touching: Vec<(u32, u32)>,
+    /// Pairs of a leaf of a fold and one of sheet 0 that may share a configuration.
+    across: Vec<(u32, u32)>,
+    /// Leaves at pitch −π/2 and at π/2, where roll and yaw are one.
+    poles: [Vec<usize>; 2],
+}
+
+pub(super) fn check(
+    certificate: &Certificate,
+    sheets: &[Sheet<'_>],
+    folds: &[&Fold],
+    links: &[Link],
+    control: &Control<'_>,
+    verdict: &mut Verdict,
+) {
+    (control.progress)(Progress { stage: "adjacency", done: 0, total: 1 });
+    let leaves = Leaves::new(certificate, sheets);
+    let classes = 2 * certificate.modes.len();
+    let count = |class: usize| {
+        (control.progress)(Progress { stage: "counting", done: class as u64, total: classes as u64 });
+        Claim { low: leaves.low(class, folds), high: leaves.high(class, links) }
+    };
+    let counted: Vec<Claim> = (0..classes).into_par_iter().map(count).collect();
+    for (class, (&proved, &claimed)) in counted.iter().zip(&certificate.claims).enumerate() {
+        let (mode, det_a) = (certificate.modes[class / 2], if class % 2 == 0 { 1 } else { -1 });
+        verdict.classes.push(Checked { mode, det_a, claimed, proved });
+        if claimed.low > proved.low {
+            let reason = format!("at least {} aspects are claimed, {} are proved", claimed.low, proved.low);
+            verdict.faults.push(Fault::of_class(class, reason));
+        }
+        match (claimed.high, proved.high) {
+            (Some(high), None) => {
+                let reason = format!(
+                    "at most {high} aspects are claimed, but leaves are undecided, not covered and not summitless"
+                );
+                verdict.faults.push(Fault::of_class(class, reason));
+            }
+            (Some(high), Some(found)) if high < found => {
+                let reason = format!("at most {high} aspects are claimed, but {found} are not excluded");
+                verdict.faults.push(Fault::of_class(class, reason));
+            }
+            _ => {}
+        }
+    }
+}
+
+impl<'a> Leaves<'a> {
+    fn new(certificate: &Certificate, sheets: &'a [Sheet<'a>]) -> Self {
+        let mut first = Vec::new();
+        let mut all: Vec<Leaf> = Vec::new();
+        for sheet in sheets {
+            first.push(all.len());
+            all.extend(sheet.cells.leaves.iter().map(|cell| cell.claims));
+        }
+        let mut leaves = Self { sheets, first, all, touching: vec![], across: vec![], poles: Default::default() };
+        leaves.touching = leaves.pairs(|s, leaf| leaves.neighbours(s, leaf));
+        leaves.across = leaves.pairs(|s, leaf| {
+            let sheet = &sheets[s];
+            if s == 0 { vec![] } else { charts::met_outside(&sheet.setting, &sheet.cells, leaf, &sheets[0].cells) }
+        });
+        let varies = |k: usize| certificate.window.ranges[k].0 < certificate.window.ranges[k].1;
+        if certificate.robot.platform == Platform::TurningBody && varies(0) && varies(2) {
+            for leaf in 0..sheets[0].cells.leaves.len() {
+                let pitch = sheets[0].cells.of(leaf)[1];
+                for (pole, there) in [pitch.lo <= -FRAC_PI_2, pitch.hi >= FRAC_PI_2].into_iter().enumerate() {
+                    leaves.poles[pole].extend(there.then_some(leaf));
+                }
+            }
+        }
+        leaves
+    }
+
+    /// Pairs of a leaf and what `others` gives for it, of leaves that are not outside all classes.
+    fn pairs(&self, others: impl Fn(usize, usize) -> Vec<usize> + Sync) -> Vec<(u32, u32)> {
+        let of_sheet = |s: usize| {
+            let others = &others;
+            let (first, cells) = (self.first[s], &self.sheets[s].cells.leaves);
+            let matters = move |leaf: &usize| cells[*leaf].claims.inside | cells[*leaf].claims.undecided != 0;
+            (0..cells.len()).into_par_iter().filter(matters).flat_map_iter(move |leaf| {
+                others(s, leaf).into_iter().map(move |other| ((first + leaf) as u32, other as u32))
+            })
+        };
+        (0..self.sheets.len()).into_par_iter().flat_map(of_sheet).collect()
+    }
+
+    /// The leaves after this one in its sheet that touch it and have a class in common with it, numbered through the sheets.
+    fn neighbours(&self, s: usize, leaf: usize) -> Vec<usize> {
+        let cells = &self.sheets[s].cells;
+        let classes = |leaf: usize| cells.leaves[leaf].claims.inside | cells.leaves[leaf].claims.undecided;
+        let mut found = Vec::new();
+        cells.touching(leaf, &mut |other| {
+            if other > leaf && classes(leaf) & classes(other) != 0 {
+                found.push(self.first[s] + other);
+            }
+        });
+        found
+    }
+
+    /// Components of G⁺ that certainly hold an aspect.
+    fn low(&self, class: usize, folds: &[&Fold]) -> usize {
+        let bit: ClassSet = 1 << class;
+        let is_member = |i: usize| {
+            let leaf = &self.all[i];
+            (leaf.inside | leaf.undecided) & bit != 0 && !leaf.covered
+        };
+        let mut sets = Sets::new(self.all.len());
+        for &(a, b) in self.touching.iter().chain(&self.across) {
+            if is_member(a as usize) && is_member(b as usize) {
+                sets.union(a as usize, b as usize);
+            }
+        }
+        for pole in &self.poles {
+            let members: Vec<usize> = pole.iter().copied().filter(|&i| is_member(i)).collect();
+            members.windows(2).for_each(|pair| sets.union(pair[0], pair[1]));
+        }
+        let holds_some = |i: &usize| {
+            self.all[*i].inside & bit != 0 && is_member(*i) && (self.is_of_fold(*i) || self.is_clear(*i, folds))
+        };
+        sets.count((0..self.all.len()).filter(holds_some))
+    }
+
+    fn is_of_fold(&self, leaf: usize) -> bool {
+        leaf >= self.sheets[0].cells.leaves.len()
+    }
+
+    /// Whether the middle of a leaf of sheet 0 is in no fold's chart.
+    fn is_clear(&self, leaf: usize, folds: &[&Fold]) -> bool {
+        let middle = self.sheets[0].cells.of(leaf).map(|x| Interval::point(x.mid()));
+        folds.is_empty() || {
+            let view = View::new(&self.sheets[0].setting, middle);
+            folds.iter().all(|fold| view.is_clear_of(fold))
+        }
+    }
+
+    /// Pieces of inside leaves in which an aspect may be highest, if all aspects are highest in an inside leaf.
+    fn high(&self, class: usize, links: &[Link]) -> Option<usize> {
+        let bit: ClassSet = 1 << class;
+        let hides = |leaf: &Leaf| leaf.undecided & !leaf.summitless & !leaf.inside & bit != 0 && !leaf.covered;
+        if self.all.iter().any(hides) {
+            return None;
+        }
+        let is_inside = |i: usize| self.all[i].inside & bit != 0;
+        let mut sets = Sets::new(self.all.len());
+        for &(a, b) in &self.touching {
+            if is_inside(a as usize) && is_inside(b as usize) {
+                sets.union(a as usize, b as usize);
+            }
+        }
+        for link in links.iter().filter(|link| link.class == class) {
+            let numbers: Vec<usize> = link.leaves.iter().map(|&(s, leaf)| self.first[s] + leaf).collect();
+            numbers.windows(2).for_each(|pair| sets.union(pair[0], pair[1]));
+        }
+        let counts = |i: &usize| {
+            let leaf = &self.all[*i];
+            is_inside(*i) && leaf.summitless & bit == 0 && !leaf.covered
+        };
+        Some(sets.count((0..self.all.len()).filter(counts)))
+    }
+}

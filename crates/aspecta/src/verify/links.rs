@@ -1,0 +1,114 @@
+//! Joins and seams: what links inside leaves that do not touch.
+
+use super::claims::sign_of;
+use super::view::{Coordinates, Existence, Setting, View};
+use super::{Fault, Sheet, Verdict, charts, point};
+use crate::certificate::{Certificate, Join, Seam};
+use crate::kinematics::WorkingMode;
+use crate::num::Interval;
+
+/// Leaves (sheet, leaf) proved to lie in one aspect of a class.
+pub(super) struct Link {
+    pub class: usize,
+    pub leaves: Vec<(usize, usize)>,
+}
+
+pub(super) fn check(certificate: &Certificate, sheets: &[Sheet<'_>], verdict: &mut Verdict) -> Vec<Link> {
+    let mut links = Vec::new();
+    let joins = certificate.joins.iter().map(|join| (join.class, "join", link_of_join(certificate, sheets, join)));
+    let seams = certificate.seams.iter().map(|seam| (seam.class, "seam", link_of_seam(sheets, seam)));
+    let mut number = [0, 0];
+    for (class, kind, link) in joins.chain(seams) {
+        let index = &mut number[usize::from(kind == "seam")];
+        match link {
+            Ok(leaves) => links.push(Link { class, leaves }),
+            Err(reason) => verdict.faults.push(Fault::of_class(class, format!("{kind} {index}: {reason}"))),
+        }
+        *index += 1;
+    }
+    links
+}
+
+/// The leaves of a sheet that hold all of a box and are inside a class.
+fn inside(sheets: &[Sheet<'_>], sheet: usize, y: &Coordinates, class: usize) -> Vec<(usize, usize)> {
+    let cells = &sheets[sheet].cells;
+    let is_inside = |leaf: &usize| cells.leaves[*leaf].claims.inside >> class & 1 == 1;
+    cells.holding(y).into_iter().filter(is_inside).map(|leaf| (sheet, leaf)).collect()
+}
+
+fn link_of_join(
+    certificate: &Certificate,
+    sheets: &[Sheet<'_>],
+    join: &Join,
+) -> Result<Vec<(usize, usize)>, String> {
+    let window = &certificate.window;
+    let mut leaves = Vec::new();
+    for (k, pose) in join.path.iter().enumerate() {
+        let within = |(i, x): (usize, &f64)| {
+            window.glued[i] || (window.ranges[i].0..=window.ranges[i].1).contains(x)
+        };
+        if !pose.iter().enumerate().all(within) {
+            return Err(format!("pose {k} of the path is beyond the window"));
+        }
+        let here = inside(sheets, 0, &point(pose), join.class);
+        if here.is_empty() && (k == 0 || k + 1 == join.path.len()) {
+            return Err(format!("pose {k}, an end of the path, lies in no inside leaf of sheet 0"));
+        }
+        leaves.extend(here);
+    }
+    let mode = certificate.modes[join.class / 2];
+    for (k, ends) in join.path.windows(2).enumerate() {
+        if !is_inside_all_along(&sheets[0].setting, mode, sign_of(join.class), &ends[0], &ends[1]) {
+            return Err(format!("the segment from pose {k} is not proved to lie inside the class"));
+        }
+    }
+    Ok(leaves)
+}
+
+/// Most pieces into which a segment is cut.
+const EFFORT: usize = 50_000;
+
+fn is_inside_all_along(
+    setting: &Setting<'_>,
+    mode: WorkingMode,
+    sign: f64,
+    start: &[f64],
+    end: &[f64],
+) -> bool {
+    let mut open = vec![(0.0, 1.0)];
+    for _ in 0..EFFORT {
+        let Some((from, to)) = open.pop() else { return true };
+        let (start, end) = (point(start), point(end));
+        let y = std::array::from_fn(|k| {
+            let reached = start[k] + Interval::new(from, to) * (end[k] - start[k]);
+            if start[k] == end[k] { start[k] } else { reached }
+        });
+        let view = View::new(setting, y);
+        let existence = view.existence(mode);
+        let det = if existence == Existence::Nowhere { Interval::ENTIRE } else { view.determinant(mode) };
+        let det = det * Interval::point(sign);
+        if existence == Existence::Nowhere || det.is_negative() {
+            return false;
+        }
+        if !(existence == Existence::Everywhere && det.is_positive()) {
+            let middle = 0.5 * (from + to);
+            open.extend([(middle, to), (from, middle)]);
+        }
+    }
+    false
+}
+
+fn link_of_seam(sheets: &[Sheet<'_>], seam: &Seam) -> Result<Vec<(usize, usize)>, String> {
+    let y = point(&seam.point);
+    let mut leaves = inside(sheets, seam.sheet, &y, seam.class);
+    if leaves.is_empty() {
+        return Err(format!("the point lies in no inside leaf of sheet {}", seam.sheet));
+    }
+    let pose = charts::poses(&sheets[seam.sheet].setting, &y);
+    let outside = inside(sheets, 0, &pose, seam.class);
+    if outside.is_empty() {
+        return Err("the pose is not proved to lie in an inside leaf of sheet 0".into());
+    }
+    leaves.extend(outside);
+    Ok(leaves)
+}

@@ -1,0 +1,175 @@
+//! An independent check of certificates: small, slow and plain.
+//!
+//! Of what computes a certificate this module uses [`Interval`] and [`Jet`](crate::num::Jet) arithmetic, the leg equation
+//! ([`crate::kinematics::leg::equation`]), the types that describe robots, windows ([`Robot::slice`](crate::robot::Robot::slice)) and charts, and
+//! nothing else. It differentiates the leg equation, cuts boxes until plain enclosures and mean values decide, and counts.
+//!
+//! # Theorem
+//! Let S be the set of configurations (X, q) of a working mode s and a sign σ: H_j > 0, limits kept, s_j B_jj > 0, σ det A > 0, X in the
+//! window. Let closed boxes cover it: the leaves of sheet 0 that are not covered, and those of the folds. If all checks below
+//! succeed, then for each class `low` ≤ number of components of S ≤ `high`.
+//!
+//! - *Inside* leaves lie in S, *outside* leaves do not meet it, a *covered* leaf has all its configurations in the chart of one
+//!   fold (or of several), whose charts are disjoint. The rest is undecided.
+//! - **Low.** Of a leaf of sheet 0 take the configurations that are not in the interior of a fold's chart. With the leaves of the
+//!   folds these closed sets cover S, so each component of S lies in one component of the graph G⁺ that joins any two which may share a
+//!   point. Leaves of one sheet do if their boxes touch (modulo full turns; at pitch ±π/2 always, roll and yaw being one); a
+//!   leaf of sheet 0 and one of a fold share points only on the outer faces of the fold's chart. A component of G⁺ with an inside
+//!   leaf of a fold, or one of sheet 0 whose middle is proved to be in no fold's chart, holds an aspect; different ones hold different ones.
+//! - **High.** P = min of σ det A, the H_j, the limits and the distances to faces that the user's window cuts, each divided by
+//!   the same positive number everywhere, is continuous and vanishes on the boundary of S, so each component has a maximum of P. In a
+//!   *summitless* leaf there is none: on each part of it some tangent vector of the configurations makes every function grow that can be the
+//!   least there. So each component has its maximum in an inside leaf that is not summitless. Inside leaves that touch, or are linked
+//!   by a *join* (a path in S) or a *seam* (a configuration in both), lie in one component.
+//!
+//! # Tangent vectors
+//! Configurations are the zeros of f_j(y, q_j). With n_j = ∂f_j/∂y, a velocity (ẏ, q̇) is tangent if n_j·ẏ + B_jj q̇_j = 0. Where B_jj ≠ 0
+//! this gives q̇_j. Where B_jj may vanish, ẏ is chosen exactly perpendicular to n_j and q̇_j = 0, or ẏ = −B_jj c and q̇_j = n_j·c: det A, B_jj
+//! and the limits are smooth functions of (y, q), so nothing grows without bound. H_j = B_jj² (B_jj²/4 for prismatic legs) grows where
+//! s_j B_jj does.
+//!
+//! # What is taken for granted
+//! The arithmetic of the machine and of [`Interval`]; that the leg equation is that of the robot; that a window from
+//! [`Robot::slice`](crate::robot::Robot::slice) holds the workspace. A strut of length 0 has det A = 0 and so belongs to no aspect.
+
+mod body;
+mod cells;
+mod charts;
+mod claims;
+mod count;
+mod direction;
+mod graph;
+mod links;
+#[cfg(test)]
+mod tests;
+mod verdict;
+mod view;
+
+pub use verdict::{Checked, Counts, Fault, Verdict};
+
+use crate::certificate::Certificate;
+use crate::kinematics::chart::Fold;
+use crate::num::Interval;
+use crate::paving::{Control, Progress};
+use cells::Cells;
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use view::{Coordinates, Setting};
+
+/// Faults after which no more are sought.
+const ENOUGH: usize = 20;
+
+/// Checks a certificate that has been read ([`Certificate::from_json`]).
+///
+/// Faults are all real for the theorem above: a claim is wrong, or could not be proved with generous effort. If the work is
+/// cancelled, the verdict is incomplete.
+pub fn verify(certificate: &Certificate, control: &Control<'_>) -> Verdict {
+    let mut verdict = Verdict::new(certificate);
+    let sheets = sheets(certificate);
+    let folds = charts::folds(certificate);
+    check_charts(certificate, &sheets, &folds, &mut verdict);
+    if verdict.faults.is_empty() {
+        check_leaves(certificate, &sheets, &folds, control, &mut verdict);
+    }
+    if verdict.faults.is_empty() && !control.is_cancelled() {
+        let links = links::check(certificate, &sheets, &mut verdict);
+        if verdict.faults.is_empty() {
+            count::check(certificate, &sheets, &folds, &links, control, &mut verdict);
+        }
+    }
+    verdict.complete = !control.is_cancelled();
+    verdict
+}
+
+/// A sheet: its chart and its boxes.
+struct Sheet<'a> {
+    setting: Setting<'a>,
+    cells: Cells,
+}
+
+fn sheets(certificate: &Certificate) -> Vec<Sheet<'_>> {
+    let sheet = |sheet: &'_ crate::certificate::Sheet| {
+        let window = charts::window_of(&sheet.chart, &certificate.window);
+        (window.clone(), Cells::new(&sheet.tree, window))
+    };
+    let all = certificate.sheets.iter().map(|s| (s, sheet(s)));
+    all.map(|(s, (window, cells))| Sheet {
+        setting: Setting { robot: &certificate.robot, chart: &s.chart, window, scale: &certificate.scale },
+        cells,
+    })
+    .collect()
+}
+
+fn check_charts(certificate: &Certificate, sheets: &[Sheet<'_>], folds: &[&Fold], verdict: &mut Verdict) {
+    if let Some(reason) = charts::fault_of_window(certificate) {
+        verdict.faults.push(Fault::of_sheet(0, reason));
+    }
+    for (k, fold) in folds.iter().enumerate() {
+        if let Some(reason) = charts::fault_of_fold(&certificate.robot, &certificate.window, fold) {
+            verdict.faults.push(Fault::of_sheet(k + 1, reason.into()));
+        }
+    }
+    if !verdict.faults.is_empty() {
+        return;
+    }
+    for (k, fold) in folds.iter().enumerate() {
+        for (l, other) in folds.iter().enumerate().skip(k + 1) {
+            if !charts::are_disjoint(&sheets[k + 1].setting, fold, other) {
+                let reason = format!("its chart is not proved to be disjoint from that of sheet {}", l + 1);
+                verdict.faults.push(Fault::of_sheet(k + 1, reason));
+            }
+        }
+    }
+}
+
+fn check_leaves(
+    certificate: &Certificate,
+    sheets: &[Sheet<'_>],
+    folds: &[&Fold],
+    control: &Control<'_>,
+    verdict: &mut Verdict,
+) {
+    let total = verdict.leaves as u64;
+    let (done, faults, boxes) = (AtomicU64::new(0), AtomicUsize::new(0), AtomicU64::new(0));
+    for (s, sheet) in sheets.iter().enumerate() {
+        let check = |leaf: usize| -> Option<Fault> {
+            if control.is_cancelled() || faults.load(Ordering::Relaxed) >= ENOUGH {
+                return None;
+            }
+            let so_far = done.fetch_add(1, Ordering::Relaxed);
+            if so_far.is_multiple_of(256) {
+                (control.progress)(Progress { stage: "proving boxes", done: so_far, total });
+            }
+            let (claims, y) = (sheet.cells.leaves[leaf].claims, sheet.cells.of(leaf));
+            match claims::prove(&sheet.setting, &certificate.modes, folds, y, claims) {
+                Ok(spent) => {
+                    boxes.fetch_add(spent as u64, Ordering::Relaxed);
+                    None
+                }
+                Err(unproved) => {
+                    faults.fetch_add(1, Ordering::Relaxed);
+                    let extent = bounds(&y, certificate.robot.dof());
+                    Some(Fault {
+                        sheet: Some(s),
+                        leaf: Some(leaf),
+                        class: unproved.class,
+                        bounds: extent,
+                        reason: unproved.reason.into(),
+                    })
+                }
+            }
+        };
+        let found: Vec<Fault> = (0..sheet.cells.leaves.len()).into_par_iter().filter_map(check).collect();
+        verdict.faults.extend(found);
+    }
+    verdict.boxes = boxes.into_inner();
+}
+
+fn bounds(y: &Coordinates, count: usize) -> Vec<(f64, f64)> {
+    y[..count].iter().map(|x| (x.lo, x.hi)).collect()
+}
+
+/// A point, given by up to three numbers, as a box.
+fn point(x: &[f64]) -> Coordinates {
+    std::array::from_fn(|k| Interval::point(x.get(k).copied().unwrap_or(0.0)))
+}
