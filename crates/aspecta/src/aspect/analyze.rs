@@ -10,6 +10,7 @@ use super::measure::{Held, Measure};
 use super::project::{q_bounds, w_bounds};
 use super::result::*;
 use super::search::Search;
+use crate::certificate::{Certificate, Claim, Join, Seam};
 use crate::kinematics::WorkingMode;
 use crate::paving::{Budget, Control, Mark, Node, Paving, Progress};
 use crate::robot::{Actuator, Leg, Robot, SliceError};
@@ -24,6 +25,8 @@ pub struct Options {
     pub budget: Budget,
     /// Coordinates to hold (index, value), as in [`Robot::slice`]: what is analysed are the poses that have these values.
     pub fix: Vec<(usize, f64)>,
+    /// Whether to keep the proof: [`Analysis::certificate`].
+    pub certificate: bool,
 }
 
 /// Why a robot cannot be analysed.
@@ -87,6 +90,7 @@ pub fn analyze(robot: &Robot, options: &Options, control: &Control<'_>) -> Resul
         modes: modes.iter().enumerate().map(|(m, mode)| mode_report(robot, paving, m, *mode)).collect(),
         classes,
         doubts,
+        certificate: options.certificate.then(|| certificate(&atlas, &counted)),
         parallel_aspects: parallel,
         serial_aspects: serial,
         run: Run {
@@ -161,6 +165,20 @@ fn aspect(atlas: &Atlas<'_>, class: Class, components: &Components, group: &Grou
         w_bounds: w_bounds(paving, &all),
         q_bounds: q_bounds(atlas.robot, paving, class.mode, &inner),
     }
+}
+
+/// All that the bounds rest on.
+fn certificate(atlas: &Atlas<'_>, counted: &[(Class, Counted)]) -> Certificate {
+    let claims = counted.iter().map(|(_, c)| Claim { low: c.found.len(), high: c.high() }).collect();
+    let index = |class: &Class| class.bit.trailing_zeros() as usize;
+    let joins = counted
+        .iter()
+        .flat_map(|(class, c)| c.joins.iter().map(|path| Join { class: index(class), path: path.clone() }));
+    let seams = counted.iter().flat_map(|(class, _)| {
+        let points = atlas.seam_points(class.bit);
+        points.into_iter().map(|(sheet, point)| Seam { class: index(class), sheet, point })
+    });
+    Certificate::new(atlas.robot, &atlas.scale, &atlas.sheets, joins.collect(), seams.collect(), claims)
 }
 
 /// Numbers the aspects of all classes from 1.

@@ -4,8 +4,8 @@ use super::scale::Scale;
 use super::summit::summitless;
 use crate::kinematics::WorkingMode;
 use crate::kinematics::chart::{Chart, Fold, folds};
-use crate::num::{Interval, LANES, Scalar};
 use crate::kinematics::for_platform;
+use crate::num::{Interval, LANES, Scalar};
 use crate::paving::{Budget, ClassSet, Control, Mark, Node, Paving, Progress, for_paving};
 use crate::robot::{Robot, Window};
 use rayon::prelude::*;
@@ -69,7 +69,8 @@ impl<'a> Atlas<'a> {
 
     /// All leaves in which something is undecided.
     pub(super) fn undecided_leaves(&self) -> Vec<Leaf> {
-        let all = self.sheets.iter().enumerate().flat_map(|(s, p)| (0..p.nodes.len() as u32).map(move |n| (s, n)));
+        let all =
+            self.sheets.iter().enumerate().flat_map(|(s, p)| (0..p.nodes.len() as u32).map(move |n| (s, n)));
         all.filter(|&leaf| self.open(leaf) != 0).collect()
     }
 
@@ -81,6 +82,19 @@ impl<'a> Atlas<'a> {
             paving.nodes[at as usize].summitless |= classes;
             stack.extend(paving.children(at));
         }
+    }
+
+    /// Points, in the coordinates of a fold's sheet, at which a box there that is inside a class meets one of sheet 0 that is.
+    pub(super) fn seam_points(&self, class: ClassSet) -> Vec<(usize, Vec<f64>)> {
+        let mut points = Vec::new();
+        let sight = |node: &Node| node.of_classes(class);
+        let inside = |(s, at): Leaf| sight(&self.sheets[s].nodes[at as usize]) == Mark::Inside;
+        seams(self.robot, &self.sheets, &sight, &mut |a, b, surely| {
+            if surely && inside(a) {
+                points.push((b.0, self.sheets[b.0].centre(b.1)));
+            }
+        });
+        points
     }
 
     /// The children of boxes in which one of some classes is undecided.
@@ -104,7 +118,12 @@ impl<'a> Atlas<'a> {
 
     /// Splits and searches boxes until no aspect can hide in any, as far as `limits` allow; `fresh` are the leaves not searched yet.
     /// Returns whether the limits allowed all of it.
-    pub(super) fn uncover(&mut self, mut fresh: Vec<Leaf>, limits: &Limits<'_>, control: &Control<'_>) -> bool {
+    pub(super) fn uncover(
+        &mut self,
+        mut fresh: Vec<Leaf>,
+        limits: &Limits<'_>,
+        control: &Control<'_>,
+    ) -> bool {
         let mut complete = true;
         loop {
             let open = if self.is_worth_searching(&fresh) { self.survey(&fresh) } else { fresh };
@@ -124,7 +143,11 @@ impl<'a> Atlas<'a> {
                 return false;
             }
             let done = self.boxes();
-            (control.progress)(Progress { stage: "looking for hidden aspects", done, total: done + split.len() as u64 });
+            (control.progress)(Progress {
+                stage: "looking for hidden aspects",
+                done,
+                total: done + split.len() as u64,
+            });
             fresh = self.split(&split, control);
         }
     }
@@ -143,7 +166,8 @@ impl<'a> Atlas<'a> {
             .step_by(leaves.len() / SAMPLE)
             .map(|&leaf| (leaf.1, self.open(leaf)))
             .collect();
-        let settled = sample.iter().zip(self.summitless(sheet, &sample)).filter(|(s, proved)| s.1 & !proved == 0);
+        let settled =
+            sample.iter().zip(self.summitless(sheet, &sample)).filter(|(s, proved)| s.1 & !proved == 0);
         10 * settled.count() > 3 * sample.len()
     }
 
@@ -205,7 +229,9 @@ pub(super) fn seams(
         sheet.boxes_of(sight, &mut |at| boxes.push(at));
         for at in boxes {
             for face in outer_faces(robot, sheet, at) {
-                sheets[0].meeting(sight, &image(robot, sheet, &face), &mut |other| join((0, other), (s, at), false));
+                sheets[0].meeting(sight, &image(robot, sheet, &face), &mut |other| {
+                    join((0, other), (s, at), false)
+                });
             }
             if sight(&sheet.nodes[at as usize]) == Mark::Inside {
                 let centre = sheet.centre(at).into_iter().map(Interval::point).collect::<Vec<_>>();

@@ -1,6 +1,6 @@
 //! The count of one class: bounds from the two graphs, and where they are kept apart.
 
-use super::ascent::{Class, Join, merge};
+use super::ascent::{Class, Path, merge};
 use super::atlas::{Atlas, Leaf};
 use super::components::{Components, UnionFind};
 use crate::paving::{ClassSet, Control, Mark, Node};
@@ -13,8 +13,8 @@ pub(super) struct Counted {
     pub found: Vec<Group>,
     /// Whether no aspect can hide in an undecided box: then there are at most as many aspects as summits, all told.
     pub closed: bool,
-    /// The paths that joined pieces.
-    pub joins: Vec<Join>,
+    /// The paths, proved to lie in the class, that joined pieces.
+    pub joins: Vec<Path>,
     /// Boxes found to have no summit, for the atlas to remember.
     pub summitless: Vec<Leaf>,
     /// What lies between pieces that were not joined.

@@ -41,29 +41,42 @@ impl<'a> Search<'a> {
         let mut complete = atlas.sheets[0].stop == Stop::Resolution;
         let leaves = atlas.undecided_leaves();
         complete &= atlas.uncover(leaves, &limits, control);
-        let mut counted: Vec<(Class, Counted)> =
-            classes.collect::<Vec<_>>().into_par_iter().map(|class| (class, count(&atlas, class, control))).collect();
+        let mut counted: Vec<(Class, Counted)> = classes
+            .collect::<Vec<_>>()
+            .into_par_iter()
+            .map(|class| (class, count(&atlas, class, control)))
+            .collect();
         loop {
-            for leaf in counted.iter().flat_map(|(class, c)| c.summitless.iter().map(|&leaf| (leaf, class.bit))) {
+            for leaf in
+                counted.iter().flat_map(|(class, c)| c.summitless.iter().map(|&leaf| (leaf, class.bit)))
+            {
                 atlas.remember(leaf.0, leaf.1);
             }
             let gather = |boxes: fn(&Counted) -> &[Leaf]| -> Vec<Leaf> {
-                let all: BTreeSet<Leaf> = counted.iter().flat_map(|(_, c)| boxes(c).iter().copied()).collect();
+                let all: BTreeSet<Leaf> =
+                    counted.iter().flat_map(|(_, c)| boxes(c).iter().copied()).collect();
                 all.into_iter().filter(|&leaf| atlas.depth_of(leaf) < limits.depth).collect()
             };
             let ways = gather(|c| &c.between.ways);
             let mut split = gather(|c| &c.between.front);
-            split.extend(ways.iter().filter(|leaf| split.binary_search(leaf).is_err()).copied().collect::<Vec<_>>());
+            split.extend(
+                ways.iter().filter(|leaf| split.binary_search(leaf).is_err()).copied().collect::<Vec<_>>(),
+            );
             split.sort_unstable();
             if split.is_empty() || split.len() > limits.affordable(&atlas) || limits.is_over(control) {
                 complete &= counted.iter().all(|(_, c)| c.is_exact());
                 break;
             }
             let exact = counted.iter().filter(|(_, c)| c.is_exact()).count() as u64;
-            (control.progress)(Progress { stage: "joining pieces", done: exact, total: counted.len() as u64 });
+            (control.progress)(Progress {
+                stage: "joining pieces",
+                done: exact,
+                total: counted.len() as u64,
+            });
             let mut fresh = atlas.split(&split, control);
             // Ways are few: they are followed several levels down before the pieces are counted again.
-            let torn = counted.iter().filter(|(_, c)| !c.is_exact()).fold(0, |torn, (class, _)| torn | class.bit);
+            let torn =
+                counted.iter().filter(|(_, c)| !c.is_exact()).fold(0, |torn, (class, _)| torn | class.bit);
             let mut tips = ways;
             for _ in 0..AHEAD {
                 tips = atlas.undecided_children(&tips, torn);
@@ -74,11 +87,21 @@ impl<'a> Search<'a> {
             }
             complete &= atlas.uncover(fresh, &limits, control);
             if std::env::var("TRACE").is_ok() {
-                eprintln!("{:?} split {} boxes {} exact {:?}", start.elapsed(), split.len(), atlas.boxes(), counted.iter().map(|(_, c)| (c.found.len(), c.high())).collect::<Vec<_>>());
+                eprintln!(
+                    "{:?} split {} boxes {} exact {:?}",
+                    start.elapsed(),
+                    split.len(),
+                    atlas.boxes(),
+                    counted.iter().map(|(_, c)| (c.found.len(), c.high())).collect::<Vec<_>>()
+                );
             }
             counted = counted
                 .into_par_iter()
-                .map(|(class, old)| if old.is_exact() { (class, old) } else { (class, count(&atlas, class, control)) })
+                .map(
+                    |(class, old)| {
+                        if old.is_exact() { (class, old) } else { (class, count(&atlas, class, control)) }
+                    },
+                )
                 .collect();
         }
         let stop = match () {

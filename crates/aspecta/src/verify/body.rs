@@ -90,8 +90,7 @@ impl<'a, T: Scalar, const D: usize> Body<'a, T, D> {
                 // The rod's unit vector in the crank's frame is (radial, p, w).
                 let radial = -(T::constant(Interval::point(1.0)) - across).sqrt();
                 let mut span = [zero; D];
-                (span[0], span[1]) =
-                    (radial.scale(fold.rod) + T::constant(fold.crank), y[1].scale(fold.rod));
+                (span[0], span[1]) = (radial.scale(fold.rod) + T::constant(fold.crank), y[1].scale(fold.rod));
                 if D == 3 {
                     span[D - 1] = y[2].scale(fold.rod);
                 }

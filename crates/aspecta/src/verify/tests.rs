@@ -1,7 +1,7 @@
 //! Certificates that hold, and certificates with planted faults.
 
-use super::*;
 use super::view::View;
+use super::*;
 use crate::aspect::atlas::{Atlas, Leaf};
 use crate::certificate::Claim;
 use crate::paving::Budget;
@@ -33,8 +33,7 @@ fn certify(robot: &Robot, fix: &[(usize, f64)], coarse: u32, fine: u32) -> Certi
         leaves = atlas.split(&todo, &control);
     }
     let nothing = vec![Claim { low: 0, high: None }; 2 * modes.len()];
-    let mut certificate =
-        Certificate::new(robot, &atlas.scale, &atlas.sheets, vec![], vec![], nothing);
+    let mut certificate = Certificate::new(robot, &atlas.scale, &atlas.sheets, vec![], vec![], nothing);
     let verdict = checked(&certificate);
     for fault in &verdict.faults {
         println!("{}", fault.in_words(&certificate.modes));
@@ -49,7 +48,8 @@ fn experiment() {
     let name = std::env::var("R").unwrap_or("five-bar".into());
     let number = |name: &str, usual: u32| std::env::var(name).map_or(usual, |d| d.parse().unwrap());
     let robot = catalogue::find(&name).unwrap();
-    let fix: Vec<(usize, f64)> = std::env::var("PHI").ok().map(|x| (2, x.parse().unwrap())).into_iter().collect();
+    let fix: Vec<(usize, f64)> =
+        std::env::var("PHI").ok().map(|x| (2, x.parse().unwrap())).into_iter().collect();
     let certificate = certify(&robot, &fix, number("DEPTH", 6), number("MOSTD", 12));
     let t = std::time::Instant::now();
     let verdict = checked(&certificate);
@@ -69,25 +69,54 @@ fn debug_summit() {
     let modes = robot.working_modes();
     let scale = crate::aspect::Scale::of(&robot, &window, &modes);
     let chart = Chart::Fold(folds(&robot, &window)[1].clone());
-    let setting = Setting { robot: &robot, chart: &chart, window: charts::window_of(&chart, &window), scale: &scale };
+    let setting =
+        Setting { robot: &robot, chart: &chart, window: charts::window_of(&chart, &window), scale: &scale };
     for (class, y) in [
-        (15, [Interval::new(1.472622, 1.570796), Interval::new(-0.234375, -0.225), Interval::new(-0.490874, -0.392699)]),
-        (8, [Interval::new(-2.552544, -2.454369), Interval::new(0.243750, 0.253125), Interval::new(0.981748, 1.079922)]),
+        (
+            15,
+            [
+                Interval::new(1.472622, 1.570796),
+                Interval::new(-0.234375, -0.225),
+                Interval::new(-0.490874, -0.392699),
+            ],
+        ),
+        (
+            8,
+            [
+                Interval::new(-2.552544, -2.454369),
+                Interval::new(0.243750, 0.253125),
+                Interval::new(0.981748, 1.079922),
+            ],
+        ),
     ] {
         let mut open = vec![(y, 0)];
         let mut counts = vec![0; 60];
         let mut deepest = 0;
         let mut last = None;
         for _ in 0..60000 {
-            let Some((y, depth)) = open.pop() else { println!("PROVED"); break };
+            let Some((y, depth)) = open.pop() else {
+                println!("PROVED");
+                break;
+            };
             let view = View::new(&setting, y);
             let mode = modes[class / 2];
-            if view.existence(mode) == view::Existence::Nowhere { continue; }
-            if (view.determinant(mode) * Interval::point(claims::sign_of(class))).hi <= 0.0 { continue; }
-            if view.is_summitless(mode, claims::sign_of(class)) { continue; }
+            if view.existence(mode) == view::Existence::Nowhere {
+                continue;
+            }
+            if (view.determinant(mode) * Interval::point(claims::sign_of(class))).hi <= 0.0 {
+                continue;
+            }
+            if view.is_summitless(mode, claims::sign_of(class)) {
+                continue;
+            }
             counts[depth] += 1;
-            if depth > deepest { deepest = depth; last = Some(y); }
-            if depth > 30 { continue; }
+            if depth > deepest {
+                deepest = depth;
+                last = Some(y);
+            }
+            if depth > 30 {
+                continue;
+            }
             let (a, b) = claims::halves(&setting, &y);
             open.extend([(a, depth + 1), (b, depth + 1)]);
         }

@@ -293,13 +293,22 @@ impl<'a> View<'a> {
     pub(super) fn explain(&self, mode: WorkingMode, sign: f64) {
         let legs = self.legs(mode).unwrap();
         let constraints = self.constraints(mode, sign, &legs);
-        for (j, l) in legs.iter().enumerate() { if let Some(l) = l { println!("leg {j} q {} loose {} slope {} reach {}", l.q, l.loose, l.slope, self.reach[j]); } }
+        for (j, l) in legs.iter().enumerate() {
+            if let Some(l) = l {
+                println!("leg {j} q {} loose {} slope {} reach {}", l.q, l.loose, l.slope, self.reach[j]);
+            }
+        }
         for loose in self.choices_of_loose(&legs) {
             println!("loose {loose:?}");
             let Some(v) = self.velocities(&legs, &loose) else { continue };
             for c in &constraints {
-                let g: Vec<Interval> = v.iter().map(|v| (0..6).fold(ZERO, |sum, k| sum + c.gradient[k] * v[k])).collect();
-                println!("  value {} growth {:?}", c.value, g.iter().map(|g| format!("{:.4e},{:.4e}", g.lo, g.hi)).collect::<Vec<_>>());
+                let g: Vec<Interval> =
+                    v.iter().map(|v| (0..6).fold(ZERO, |sum, k| sum + c.gradient[k] * v[k])).collect();
+                println!(
+                    "  value {} growth {:?}",
+                    c.value,
+                    g.iter().map(|g| format!("{:.4e},{:.4e}", g.lo, g.hi)).collect::<Vec<_>>()
+                );
             }
         }
     }
@@ -413,8 +422,11 @@ impl<'a> View<'a> {
 
     fn fold_margins_in<const D: usize>(&self, fold: &Fold) -> Vec<Interval> {
         let (robot, chart) = (self.setting.robot, self.setting.chart);
-        let over =
-            Body::<Function, D>::new(robot, chart, &std::array::from_fn(|k| Function::variable(self.y[k], k)));
+        let over = Body::<Function, D>::new(
+            robot,
+            chart,
+            &std::array::from_fn(|k| Function::variable(self.y[k], k)),
+        );
         let at_middle = Body::<Interval, D>::new(robot, chart, &self.y.map(|x| Interval::point(x.mid())));
         let (span, middle_span) = (over.span(fold.leg), at_middle.span(fold.leg));
         let bend = over.bend(fold.leg, &span).0;
