@@ -12,7 +12,7 @@ static NEVER: AtomicBool = AtomicBool::new(false);
 
 fn attempt(robot: &Robot, depth: u32, fix: &[(usize, f64)]) -> Result<Analysis, AnalysisError> {
     let budget = Budget { depth: Some(depth), ..Budget::default() };
-    let options = Options { budget, fix: fix.to_vec() };
+    let options = Options { budget, fix: fix.to_vec(), ..Options::default() };
     analyze(robot, &options, &Control { cancelled: &NEVER, progress: &|_| () })
 }
 
@@ -404,7 +404,7 @@ fn a_slice_says_what_was_held() {
 #[test]
 fn budgets_know_the_coordinates_that_vary() {
     let run = |fix: &[(usize, f64)], budget: Budget| {
-        let options = Options { budget, fix: fix.to_vec() };
+        let options = Options { budget, fix: fix.to_vec(), ..Options::default() };
         let control = Control { cancelled: &NEVER, progress: &|_| () };
         analyze(&robot("3-rrr"), &options, &control).unwrap().run
     };

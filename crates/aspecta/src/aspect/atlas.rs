@@ -23,6 +23,14 @@ pub(super) struct Limits<'a> {
     pub late: &'a (dyn Fn() -> bool + Sync),
 }
 
+/// What [`Atlas::even_out`] did.
+pub(super) struct Even {
+    /// Whether anything was split.
+    pub changed: bool,
+    /// Whether the depth was reached everywhere.
+    pub reached: bool,
+}
+
 impl Limits<'_> {
     /// How many boxes may still be split.
     pub(super) fn affordable(&self, atlas: &Atlas<'_>) -> usize {
@@ -126,29 +134,47 @@ impl<'a> Atlas<'a> {
     ) -> bool {
         let mut complete = true;
         loop {
-            let open = if self.is_worth_searching(&fresh) { self.survey(&fresh) } else { fresh };
-            let (split, deepest): (Vec<Leaf>, Vec<Leaf>) =
+            let worth = self.is_worth_searching(&fresh);
+            let open = if worth { self.survey(&fresh, limits, control) } else { fresh };
+            let (split, mut deepest): (Vec<Leaf>, Vec<Leaf>) =
                 open.into_iter().partition(|&leaf| self.depth_of(leaf) < limits.depth);
-            complete &= deepest.is_empty();
-            if !deepest.is_empty() {
-                // Coarse boxes not searched yet may be settled nevertheless.
-                self.survey(&deepest);
+            if !worth {
+                // What cannot be split is searched all the same.
+                deepest = self.survey(&deepest, limits, control);
             }
+            complete &= deepest.is_empty();
             if split.is_empty() {
                 return complete;
             }
-            let affordable = limits.affordable(self);
-            if split.len() > affordable || limits.is_over(control) {
-                self.survey(&split);
+            if split.len() > limits.affordable(self) || limits.is_over(control) {
                 return false;
             }
-            let done = self.boxes();
-            (control.progress)(Progress {
-                stage: "looking for hidden aspects",
-                done,
-                total: done + split.len() as u64,
-            });
             fresh = self.split(&split, control);
+        }
+    }
+
+    /// Splits every undecided box of sheet 0 down to `depth`.
+    pub(super) fn even_out(&mut self, depth: u32, limits: &Limits<'_>, control: &Control<'_>) -> Even {
+        let coarse = |paving: &Paving, at: u32| {
+            let node = &paving.nodes[at as usize];
+            node.first_child == 0 && node.undecided != 0 && u32::from(node.depth) < depth
+        };
+        let mut even = Even { changed: false, reached: true };
+        let mut first = 0;
+        loop {
+            let all = self.sheets[0].nodes.len() as u32;
+            let split: Vec<Leaf> =
+                (first..all).filter(|&at| coarse(&self.sheets[0], at)).map(|at| (0, at)).collect();
+            if split.is_empty() {
+                return even;
+            }
+            if split.len() > limits.affordable(self) || limits.is_over(control) {
+                return Even { reached: false, ..even };
+            }
+            let done = self.boxes();
+            (control.progress)(Progress { stage: "paving evenly", done, total: done + split.len() as u64 });
+            self.split(&split, control);
+            (first, even.changed) = (all, true);
         }
     }
 
@@ -171,18 +197,31 @@ impl<'a> Atlas<'a> {
         10 * settled.count() > 3 * sample.len()
     }
 
-    /// Looks for summits in leaves, and returns those in which some might be.
-    pub(super) fn survey(&mut self, leaves: &[Leaf]) -> Vec<Leaf> {
-        for sheet in 0..self.sheets.len() {
-            let asked: Vec<(u32, ClassSet)> = leaves
-                .iter()
-                .filter(|leaf| leaf.0 == sheet)
-                .map(|&leaf| (leaf.1, self.open(leaf)))
-                .filter(|asked| asked.1 != 0)
-                .collect();
-            let proved = self.summitless(sheet, &asked);
-            for (&(node, _), proved) in asked.iter().zip(proved) {
-                self.sheets[sheet].nodes[node as usize].summitless |= proved;
+    /// Looks for summits in leaves, as long as the limits allow, and returns those in which some might be.
+    pub(super) fn survey(
+        &mut self,
+        leaves: &[Leaf],
+        limits: &Limits<'_>,
+        control: &Control<'_>,
+    ) -> Vec<Leaf> {
+        const SOME: usize = 1 << 15;
+        for (done, some) in leaves.chunks(SOME).enumerate() {
+            if limits.is_over(control) {
+                break;
+            }
+            let (done, total) = ((done * SOME) as u64, leaves.len() as u64);
+            (control.progress)(Progress { stage: "looking for hidden aspects", done, total });
+            for sheet in 0..self.sheets.len() {
+                let asked: Vec<(u32, ClassSet)> = some
+                    .iter()
+                    .filter(|leaf| leaf.0 == sheet)
+                    .map(|&leaf| (leaf.1, self.open(leaf)))
+                    .filter(|asked| asked.1 != 0)
+                    .collect();
+                let proved = self.summitless(sheet, &asked);
+                for (&(node, _), proved) in asked.iter().zip(proved) {
+                    self.sheets[sheet].nodes[node as usize].summitless |= proved;
+                }
             }
         }
         leaves.iter().copied().filter(|&leaf| self.open(leaf) != 0).collect()

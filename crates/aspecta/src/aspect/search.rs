@@ -19,7 +19,8 @@ pub(super) struct Search<'a> {
 
 impl<'a> Search<'a> {
     /// Paves evenly to a moderate depth; then splits the boxes in which an aspect could hide until none could; then, class by
-    /// class, those that lie between pieces not proved to be one, until they are joined or parted.
+    /// class, those that lie between pieces not proved to be one, until they are joined or parted. At last everything undecided is
+    /// split to the resolution asked for.
     pub(super) fn run(
         robot: &'a Robot,
         window: &Window,
@@ -34,7 +35,7 @@ impl<'a> Search<'a> {
             boxes: budget.boxes.unwrap_or(MAX_BOXES).min(MAX_BOXES),
             late: &late,
         };
-        let mut atlas = Atlas::new(robot, window, modes, &budget.even(window), control);
+        let mut atlas = Atlas::new(robot, window, modes, &budget.start(window), control);
         let classes = modes.iter().enumerate().flat_map(|(m, &mode)| {
             [(1, 1 << (2 * m)), (-1, 2 << (2 * m))].map(|(sign, bit)| Class { mode, sign, bit })
         });
@@ -86,15 +87,6 @@ impl<'a> Search<'a> {
                 fresh.extend(atlas.split(&tips, control));
             }
             complete &= atlas.uncover(fresh, &limits, control);
-            if std::env::var("TRACE").is_ok() {
-                eprintln!(
-                    "{:?} split {} boxes {} exact {:?}",
-                    start.elapsed(),
-                    split.len(),
-                    atlas.boxes(),
-                    counted.iter().map(|(_, c)| (c.found.len(), c.high())).collect::<Vec<_>>()
-                );
-            }
             counted = counted
                 .into_par_iter()
                 .map(
@@ -103,6 +95,20 @@ impl<'a> Search<'a> {
                     },
                 )
                 .collect();
+        }
+        let even = atlas.even_out(budget.even(window), &limits, control);
+        complete &= even.reached;
+        if even.changed {
+            counted = counted
+                .into_par_iter()
+                .map(|(class, old)| {
+                    let new = count(&atlas, class, control);
+                    (class, if old.is_exact() && !new.is_exact() { old } else { new })
+                })
+                .collect();
+            for leaf in counted.iter().flat_map(|(class, c)| c.summitless.iter().map(|&leaf| (leaf, class.bit))) {
+                atlas.remember(leaf.0, leaf.1);
+            }
         }
         let stop = match () {
             () if counted.iter().all(|(_, c)| c.is_exact()) => Stop::Exact,
