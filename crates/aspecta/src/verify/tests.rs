@@ -2,46 +2,250 @@
 
 use super::*;
 use crate::aspect::certified::certified;
+use crate::certificate::{Claim, Entry, Join, Leaf, Seam};
 use crate::paving::Budget;
-use crate::robot::{Robot, catalogue};
+use crate::robot::{Actuator, Robot, catalogue};
+use proptest::prelude::*;
+use std::sync::LazyLock;
 use std::sync::atomic::AtomicBool;
 
 fn checked(certificate: &Certificate) -> Verdict {
     verify(certificate, &Control { cancelled: &AtomicBool::new(false), progress: &|_| {} })
 }
 
-/// A certificate that claims the most that its leaves prove.
-fn certify(robot: &Robot, fix: &[(usize, f64)], budget: &Budget) -> Certificate {
-    let mut certificate = certified(robot, fix, budget);
+fn robot(name: &str) -> Robot {
+    catalogue::find(name).unwrap()
+}
+
+/// A certificate that claims the most that its leaves and links prove.
+fn certify(name: &str, fix: &[(usize, f64)], depth: Option<u32>) -> Certificate {
+    let mut certificate = certified(&robot(name), fix, &Budget { depth, ..Budget::default() });
     let verdict = checked(&certificate);
-    for fault in &verdict.faults {
-        println!("{}", fault.in_words(&certificate.modes));
-    }
-    assert!(verdict.is_verified());
+    assert!(verdict.is_verified(), "{:?}", verdict.faults);
     certificate.claims = verdict.classes.iter().map(|c| c.proved).collect();
     certificate
 }
 
+static FIVE_BAR: LazyLock<Certificate> = LazyLock::new(|| certify("five-bar", &[], None));
+/// Few leaves, and no upper bounds.
+static COARSE: LazyLock<Certificate> = LazyLock::new(|| certify("five-bar", &[], Some(5)));
+/// With the folds of three legs.
+static SLICE: LazyLock<Certificate> = LazyLock::new(|| certify("3-rrr", &[(2, 0.3)], Some(7)));
+
+/// The first leaf of a sheet that fits, to be changed.
+fn leaf(certificate: &mut Certificate, sheet: usize, fits: impl Fn(&Leaf) -> bool) -> &mut Leaf {
+    let entries = certificate.sheets[sheet].tree.0.iter_mut();
+    let leaves = entries.filter_map(|entry| if let Entry::Leaf(leaf) = entry { Some(leaf) } else { None });
+    leaves.into_iter().find(|leaf| fits(leaf)).unwrap()
+}
+
+/// The middles of the leaves of sheet 0 that are inside a class.
+fn inside(certificate: &Certificate, class: usize) -> Vec<Vec<f64>> {
+    let cells = Cells::new(&certificate.sheets[0].tree, certificate.window.clone());
+    let is_inside = |k: &usize| cells.leaves[*k].claims.inside >> class & 1 == 1;
+    let middle = |k: usize| cells.of(k)[..certificate.robot.dof()].iter().map(|x| x.mid()).collect();
+    (0..cells.leaves.len()).filter(is_inside).map(middle).collect()
+}
+
+/// The verdict on a changed certificate is that it is wrong, for a reason that holds these words.
+#[track_caller]
+fn refuted(original: &Certificate, words: &str, change: impl FnOnce(&mut Certificate)) {
+    let mut certificate = original.clone();
+    change(&mut certificate);
+    let read = Certificate::from_json(certificate.to_json().unwrap().as_bytes()).unwrap();
+    let verdict = checked(&read);
+    assert!(verdict.complete && !verdict.is_verified());
+    let found: Vec<String> = verdict.faults.iter().map(|f| f.in_words(&read.modes)).collect();
+    assert!(found.iter().any(|fault| fault.contains(words)), "{found:#?}");
+}
+
 #[test]
-fn experiment() {
-    let name = std::env::var("R").unwrap_or("five-bar".into());
-    let number = |name: &str| std::env::var(name).ok().map(|d| d.parse::<f64>().unwrap());
-    let robot = catalogue::find(&name).unwrap();
-    let fix: Vec<(usize, f64)> = std::env::var("PHI").ok().map(|x| (2, x.parse().unwrap())).into_iter().collect();
-    let budget = Budget { depth: number("DEPTH").map(|d| d as u32), boxes: number("BOXES").map(|d| d as u64), ..Budget::default() };
-    let t = std::time::Instant::now();
-    let certificate = certified(&robot, &fix, &budget);
-    println!("searched {:?}", t.elapsed());
-    let certificate = Certificate::from_json(certificate.to_json().unwrap().as_bytes()).unwrap();
-    let t = std::time::Instant::now();
-    let verdict = checked(&certificate);
-    println!("{:?}", t.elapsed());
-    for fault in &verdict.faults {
-        println!("{}", fault.in_words(&certificate.modes));
+fn ten_aspects_of_the_five_bar() {
+    let exact = |n: usize| Claim { low: n, high: Some(n) };
+    assert_eq!(FIVE_BAR.claims, [1, 1, 1, 2, 1, 1, 2, 1].map(exact));
+    let read = Certificate::from_json(FIVE_BAR.to_json().unwrap().as_bytes()).unwrap();
+    assert_eq!(read, *FIVE_BAR);
+    let verdict = checked(&read);
+    assert!(verdict.is_verified());
+    assert!(verdict.claims.inside > 1000 && verdict.claims.summitless > 1000, "{:?}", verdict.claims);
+}
+
+#[test]
+fn leaves_of_folds_are_checked_too() {
+    assert_eq!(SLICE.sheets.len(), 4);
+    let verdict = checked(&SLICE);
+    assert!(verdict.is_verified() && verdict.claims.covered > 10 && verdict.seams > 10, "{verdict:?}");
+    assert!(SLICE.claims.iter().map(|c| c.low).sum::<usize>() > 20);
+}
+
+#[test]
+fn the_sign_of_a_leaf_is_checked() {
+    refuted(&COARSE, "claimed", |c| leaf(c, 0, |leaf| leaf.inside & 1 != 0).inside ^= 3);
+    refuted(&SLICE, "sheet 2", |c| leaf(c, 2, |leaf| leaf.inside & 3 == 2).inside ^= 3);
+}
+
+#[test]
+fn inside_and_outside_are_checked() {
+    refuted(&COARSE, "sheet 0, leaf 0, class 4 (--, det A > 0): claimed inside, but it is not", |c| {
+        leaf(c, 0, |leaf| leaf.undecided == 0).inside |= 1 << 4;
+    });
+    refuted(&COARSE, "claimed outside, but", |c| {
+        leaf(c, 0, |leaf| leaf.undecided & 4 != 0 && leaf.inside == 0).undecided &= !4;
+    });
+    refuted(&COARSE, "claimed inside, but", |c| {
+        leaf(c, 0, |leaf| leaf.undecided & 4 != 0).inside |= 4;
+    });
+    refuted(&SLICE, "sheet 3", |c| {
+        leaf(c, 3, |leaf| leaf.inside & 1 != 0).inside &= !1;
+    });
+}
+
+/// A whole quarter of the window replaced by one leaf outside of everything.
+#[test]
+fn a_subtree_that_is_cut_is_missed() {
+    let cut = |c: &mut Certificate| {
+        let entries = &mut c.sheets[0].tree.0;
+        let (mut open, mut end) = (1, 1);
+        while open > 0 {
+            open = if entries[end] == Entry::Split { open + 3 } else { open - 1 };
+            end += 1;
+        }
+        entries.splice(1..end, [Entry::Leaf(Leaf::default())]);
+    };
+    refuted(&COARSE, "claimed outside, but", cut);
+    let mut shorter = COARSE.clone();
+    shorter.sheets[0].tree.0.remove(5);
+    assert!(Certificate::from_json(shorter.to_json().unwrap().as_bytes()).is_err());
+}
+
+#[test]
+fn a_summit_cannot_be_argued_away() {
+    refuted(&FIVE_BAR, "claimed summitless, but P may have a maximum here", |c| {
+        for entry in &mut c.sheets[0].tree.0 {
+            if let Entry::Leaf(leaf) = entry {
+                leaf.summitless |= leaf.inside & 1;
+            }
+        }
+        c.claims[0] = Claim { low: 0, high: Some(0) };
+    });
+}
+
+#[test]
+fn paths_are_checked() {
+    // The two aspects of +- with det A < 0 are parted by singularities.
+    let class = 3;
+    let all = inside(&FIVE_BAR, class);
+    let (first, last) = (all[0].clone(), all[all.len() - 1].clone());
+    let join = |path: Vec<Vec<f64>>| move |c: &mut Certificate| c.joins.push(Join { class, path });
+    refuted(&FIVE_BAR, "is not proved to lie inside the class", join(vec![first.clone(), last.clone()]));
+    let nowhere = vec![FIVE_BAR.window.ranges[0].0, 0.0];
+    refuted(&FIVE_BAR, "lies in no inside leaf", join(vec![nowhere, last.clone()]));
+    refuted(&FIVE_BAR, "beyond the window", join(vec![first, vec![1e3, 0.0], last]));
+}
+
+#[test]
+fn good_paths_are_accepted() {
+    let all = inside(&COARSE, 0);
+    let mut longer = COARSE.clone();
+    longer.joins.push(Join { class: 0, path: all[..2].to_vec() });
+    let verdict = checked(&longer);
+    assert!(verdict.is_verified(), "{:?}", verdict.faults);
+}
+
+#[test]
+fn seams_are_checked() {
+    refuted(&SLICE, "seam 0: the point lies in no inside leaf", |c| c.seams[0].class ^= 1);
+    // Where the chart is needed, next to the crank's axis, no leaf of sheet 0 is inside.
+    let sheet = &sheets(&SLICE)[1].cells;
+    let inner = |k: &usize| sheet.leaves[*k].claims.inside != 0;
+    let nearest = |k: &usize| sheet.of(*k)[1].magnitude();
+    let leaf = (0..sheet.leaves.len()).filter(inner).min_by(|a, b| nearest(a).total_cmp(&nearest(b))).unwrap();
+    let class = sheet.leaves[leaf].claims.inside.trailing_zeros() as usize;
+    let point = sheet.of(leaf).iter().map(|x| x.mid()).collect();
+    refuted(&SLICE, "the pose is not proved to lie in an inside leaf of sheet 0", |c| {
+        c.seams.push(Seam { class, sheet: 1, point });
+    });
+}
+
+#[test]
+fn bounds_are_checked() {
+    refuted(&FIVE_BAR, "at least 3 aspects are claimed, 2 are proved", |c| c.claims[3].low = 3);
+    refuted(&FIVE_BAR, "at most 1 aspects are claimed, but 2 are not excluded", |c| c.claims[3].high = Some(1));
+    refuted(&COARSE, "but leaves are undecided", |c| c.claims[0].high = Some(1));
+    let mut weaker = FIVE_BAR.clone();
+    weaker.claims[3] = Claim { low: 1, high: Some(7) };
+    assert!(checked(&weaker).is_verified());
+}
+
+#[test]
+fn covered_leaves_are_covered() {
+    refuted(&COARSE, "claimed covered, but", |c| {
+        leaf(c, 0, |leaf| leaf.inside != 0).covered = true;
+    });
+    refuted(&SLICE, "claimed covered, but", |c| {
+        leaf(c, 0, |leaf| !leaf.covered && leaf.inside != 0).covered = true;
+    });
+}
+
+#[test]
+fn another_robot_has_other_aspects() {
+    refuted(&COARSE, "the window is not the one", |c| {
+        c.robot.legs[0].actuator = Actuator::Revolute { crank: Interval::point(8.5), rod: Interval::point(5.0) };
+    });
+    // As long in all as before: the same window.
+    refuted(&COARSE, "claimed", |c| {
+        c.robot.legs[0].actuator = Actuator::Revolute { crank: Interval::point(7.5), rod: Interval::point(5.5) };
+    });
+    refuted(&SLICE, "lengths of the fold", |c| {
+        c.robot.legs[0].actuator = Actuator::Revolute { crank: Interval::point(11.0), rod: Interval::point(9.0) };
+    });
+    refuted(&COARSE, "the window is not the one", |c| c.window.ranges[0].0 += 1.0);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+
+    /// A leaf that is outside is not inside, and the other way round, whichever leaf and class it is.
+    #[test]
+    fn flipped_bits_are_found(place in any::<prop::sample::Index>(), class in 0..8usize) {
+        let bit = 1 << class;
+        let mut certificate = COARSE.clone();
+        let decided = |entry: &&mut Entry| matches!(entry, Entry::Leaf(leaf) if leaf.undecided & bit == 0);
+        let mut leaves: Vec<&mut Entry> = certificate.sheets[0].tree.0.iter_mut().filter(|e| decided(e)).collect();
+        let chosen = place.index(leaves.len());
+        if let Entry::Leaf(leaf) = &mut *leaves[chosen] {
+            leaf.inside ^= bit;
+        }
+        prop_assert!(!checked(&certificate).is_verified());
     }
-    println!("{:?} {} {}", verdict.claims, verdict.boxes, verdict.leaves);
-    for class in &verdict.classes {
-        println!("{class:?}");
+
+    /// Whatever becomes of a byte, the file is refused, or it is read and checked without a panic.
+    #[test]
+    fn damaged_files_are_survived(place in any::<prop::sample::Index>(), byte in any::<u8>()) {
+        let mut text = COARSE.to_json().unwrap().into_bytes();
+        let at = place.index(text.len());
+        text[at] = byte;
+        if let Ok(certificate) = Certificate::from_json(&text) {
+            checked(&certificate);
+        }
     }
-    println!("{} bytes", certificate.to_json().unwrap().len());
+
+    #[test]
+    fn noise_is_refused(noise in prop::collection::vec(any::<u8>(), 0..300)) {
+        prop_assert!(Certificate::from_json(&noise).is_err());
+    }
+}
+
+#[test]
+fn truncated_files_are_refused() {
+    let text = COARSE.to_json().unwrap();
+    for k in 0..20 {
+        assert!(Certificate::from_json(&text.as_bytes()[..text.len() * k / 20]).is_err());
+    }
+}
+
+#[test]
+fn a_cancelled_check_proves_nothing() {
+    let verdict = verify(&COARSE, &Control { cancelled: &AtomicBool::new(true), progress: &|_| {} });
+    assert!(!verdict.complete && !verdict.is_verified());
 }
