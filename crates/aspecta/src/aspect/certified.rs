@@ -15,7 +15,8 @@ pub(crate) fn certified(robot: &Robot, fix: &[(usize, f64)], budget: &Budget) ->
     let search = Search::run(robot, &window, &modes, budget, &control);
     let sheets = &search.atlas.sheets;
     let joins = search.counted.iter().flat_map(|(_, counted)| &counted.joins);
-    let joins = joins.map(|join| Join { class: join.class.trailing_zeros() as usize, path: join.path.clone() });
+    let joins =
+        joins.map(|join| Join { class: join.class.trailing_zeros() as usize, path: join.path.clone() });
     let mut all_seams = Vec::new();
     for class in 0..2 * modes.len() {
         let sight = |node: &Node| node.of_classes(1 << class);

@@ -204,7 +204,8 @@ fn fault_of_leg(leg: &Leg, platform: Platform) -> Option<&'static str> {
     if !leg.anchor.iter().chain(&leg.attachment).chain(leg.frame.as_flattened()).all(sane) {
         return Some("a coordinate of its points or of its frame is not finite");
     }
-    if !(0..3).all(|i| (0..3).all(|k| is_about(dot(&leg.frame[i], &leg.frame[k]), f64::from(u8::from(i == k)))))
+    if !(0..3)
+        .all(|i| (0..3).all(|k| is_about(dot(&leg.frame[i], &leg.frame[k]), f64::from(u8::from(i == k)))))
     {
         return Some("its frame is not orthonormal");
     }
@@ -244,9 +245,7 @@ fn is_limit(limit: &Limit, actuator: &Actuator, space: usize) -> bool {
             let strut = matches!(actuator, Actuator::Strut);
             !actuator.is_angle() && sane(min) && sane(max) && min.hi <= max.hi && (!strut || min.lo >= 0.0)
         }
-        Limit::Elbow { middle, half_cos } => {
-            revolute && space == 2 && is_circular(middle) && sane(half_cos)
-        }
+        Limit::Elbow { middle, half_cos } => revolute && space == 2 && is_circular(middle) && sane(half_cos),
         Limit::SpatialElbow { min_cos, max_cos } => {
             revolute && space == 3 && sane(min_cos) && sane(max_cos) && max_cos.hi <= min_cos.hi
         }

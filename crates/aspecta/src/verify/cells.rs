@@ -57,9 +57,7 @@ impl Cells {
 
     fn bounds(&self, corner: &[u32; MOST], depth: u32) -> Coordinates {
         std::array::from_fn(|k| match self.axes.iter().position(|&axis| axis == k) {
-            Some(a) => {
-                Interval::new(self.line(k, corner[a], depth), self.line(k, corner[a] + 1, depth))
-            }
+            Some(a) => Interval::new(self.line(k, corner[a], depth), self.line(k, corner[a] + 1, depth)),
             None => Interval::point(self.window.ranges.get(k).map_or(0.0, |r| r.0)),
         })
     }

@@ -14,8 +14,11 @@ use crate::robot::{Actuator, Platform, Robot, Window};
 pub(super) fn window_of(chart: &Chart, poses: &Window) -> Window {
     let mut window = poses.clone();
     if let Chart::Fold(fold) = chart {
-        let ranges =
-            [Some((-Interval::PI.hi, Interval::PI.hi)), Some((-fold.half_width, fold.half_width)), fold.axial];
+        let ranges = [
+            Some((-Interval::PI.hi, Interval::PI.hi)),
+            Some((-fold.half_width, fold.half_width)),
+            fold.axial,
+        ];
         for (k, range) in ranges.into_iter().enumerate().filter_map(|(k, range)| Some((k, range?))) {
             window.ranges[k] = range;
             window.glued[k] = k == 0;
@@ -69,7 +72,8 @@ pub(super) fn are_disjoint(setting: &Setting<'_>, fold: &Fold, other: &Fold) -> 
             _ => false,
         };
     }
-    let range = |k: usize| setting.window.ranges.get(k).map_or(Interval::point(0.0), |r| Interval::new(r.0, r.1));
+    let range =
+        |k: usize| setting.window.ranges.get(k).map_or(Interval::point(0.0), |r| Interval::new(r.0, r.1));
     let mut open: Vec<Coordinates> = vec![std::array::from_fn(range)];
     for _ in 0..EFFORT {
         let Some(y) = open.pop() else { return true };

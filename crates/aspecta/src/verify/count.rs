@@ -73,11 +73,16 @@ impl<'a> Leaves<'a> {
             first.push(all.len());
             all.extend(sheet.cells.leaves.iter().map(|cell| cell.claims));
         }
-        let mut leaves = Self { sheets, first, all, touching: vec![], across: vec![], poles: Default::default() };
+        let mut leaves =
+            Self { sheets, first, all, touching: vec![], across: vec![], poles: Default::default() };
         leaves.touching = leaves.pairs(|s, leaf| leaves.neighbours(s, leaf));
         leaves.across = leaves.pairs(|s, leaf| {
             let sheet = &sheets[s];
-            if s == 0 { vec![] } else { charts::met_outside(&sheet.setting, &sheet.cells, leaf, &sheets[0].cells) }
+            if s == 0 {
+                vec![]
+            } else {
+                charts::met_outside(&sheet.setting, &sheet.cells, leaf, &sheets[0].cells)
+            }
         });
         let varies = |k: usize| certificate.window.ranges[k].0 < certificate.window.ranges[k].1;
         if certificate.robot.platform == Platform::TurningBody && varies(0) && varies(2) {
@@ -135,7 +140,9 @@ impl<'a> Leaves<'a> {
             members.windows(2).for_each(|pair| sets.union(pair[0], pair[1]));
         }
         let holds_some = |i: &usize| {
-            self.all[*i].inside & bit != 0 && is_member(*i) && (self.is_of_fold(*i) || self.is_clear(*i, folds))
+            self.all[*i].inside & bit != 0
+                && is_member(*i)
+                && (self.is_of_fold(*i) || self.is_clear(*i, folds))
         };
         sets.count((0..self.all.len()).filter(holds_some))
     }
@@ -156,7 +163,8 @@ impl<'a> Leaves<'a> {
     /// Pieces of inside leaves in which an aspect may be highest, if all aspects are highest in an inside leaf.
     fn high(&self, class: usize, links: &[Link]) -> Option<usize> {
         let bit: ClassSet = 1 << class;
-        let hides = |leaf: &Leaf| leaf.undecided & !leaf.summitless & !leaf.inside & bit != 0 && !leaf.covered;
+        let hides =
+            |leaf: &Leaf| leaf.undecided & !leaf.summitless & !leaf.inside & bit != 0 && !leaf.covered;
         if self.all.iter().any(hides) {
             return None;
         }

@@ -18,7 +18,12 @@ fn twice<S: Scalar>(value: S, first: S, second: S) -> Twice<S> {
 
 /// The second derivative of det A along the line y + t v at t = 0, where the legs have the joint coordinates q (if a leg is the
 /// fold's, its own is not looked at).
-fn second<S: Scalar, const D: usize>(setting: &Setting<'_>, y: &[S; MOST], v: &[f64; MOST], q: &[S; MOST]) -> S {
+fn second<S: Scalar, const D: usize>(
+    setting: &Setting<'_>,
+    y: &[S; MOST],
+    v: &[f64; MOST],
+    q: &[S; MOST],
+) -> S {
     let zero = S::zero();
     let line = |k: usize| twice(y[k], S::constant(Interval::point(v[k])), zero);
     let line: [Twice<S>; MOST] = std::array::from_fn(line);

@@ -29,7 +29,8 @@ pub(super) fn climbable(growth: &[Vec<Interval>]) -> bool {
         let mut v = DVector::zeros(size);
         (0..CORRECTIONS).any(|_| {
             let worst = |k: &usize| {
-                let vector = DVector::from_iterator(size, growth[*k].iter().zip(&v).map(|(g, v)| corner(*g, *v)));
+                let vector =
+                    DVector::from_iterator(size, growth[*k].iter().zip(&v).map(|(g, v)| corner(*g, *v)));
                 vector.clone().try_normalize(f64::MIN_POSITIVE).unwrap_or(vector)
             };
             let found = shortest(&some.iter().map(worst).collect::<Vec<_>>());

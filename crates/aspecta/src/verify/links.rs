@@ -15,7 +15,8 @@ pub(super) struct Link {
 
 pub(super) fn check(certificate: &Certificate, sheets: &[Sheet<'_>], verdict: &mut Verdict) -> Vec<Link> {
     let mut links = Vec::new();
-    let joins = certificate.joins.iter().map(|join| (join.class, "join", link_of_join(certificate, sheets, join)));
+    let joins =
+        certificate.joins.iter().map(|join| (join.class, "join", link_of_join(certificate, sheets, join)));
     let seams = certificate.seams.iter().map(|seam| (seam.class, "seam", link_of_seam(sheets, seam)));
     let mut number = [0, 0];
     for (class, kind, link) in joins.chain(seams) {
@@ -55,9 +56,8 @@ fn link_of_join(
     let window = &certificate.window;
     let mut leaves = Vec::new();
     for (k, pose) in join.path.iter().enumerate() {
-        let within = |(i, x): (usize, &f64)| {
-            window.glued[i] || (window.ranges[i].0..=window.ranges[i].1).contains(x)
-        };
+        let within =
+            |(i, x): (usize, &f64)| window.glued[i] || (window.ranges[i].0..=window.ranges[i].1).contains(x);
         if !pose.iter().enumerate().all(within) {
             return Err(format!("pose {k} of the path is beyond the window"));
         }

@@ -58,7 +58,7 @@ use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use view::{Coordinates, Setting};
 
 /// Faults after which no more are sought.
-const ENOUGH: usize = 20;
+const ENOUGH: usize = 10;
 
 /// Checks a certificate that has been read ([`Certificate::from_json`]).
 ///

@@ -88,8 +88,7 @@ impl Fault {
         let named = |name: &str, k: Option<usize>| k.map(|k| format!("{name} {k}"));
         let parts: Vec<String> =
             [named("sheet", self.sheet), named("leaf", self.leaf), class].into_iter().flatten().collect();
-        let ranges: Vec<String> =
-            self.bounds.iter().map(|(lo, hi)| format!("[{lo:.6}, {hi:.6}]")).collect();
+        let ranges: Vec<String> = self.bounds.iter().map(|(lo, hi)| format!("[{lo:.6}, {hi:.6}]")).collect();
         let place = if ranges.is_empty() { String::new() } else { format!(", in {}", ranges.join(" × ")) };
         format!("{}: {}{place}", parts.join(", "), self.reason)
     }
@@ -114,7 +113,17 @@ impl Verdict {
         }
         let (joins, seams) = (certificate.joins.len(), certificate.seams.len());
         let sheets = certificate.sheets.len();
-        Self { complete: false, faults: vec![], sheets, leaves, claims, boxes: 0, joins, seams, classes: vec![] }
+        Self {
+            complete: false,
+            faults: vec![],
+            sheets,
+            leaves,
+            claims,
+            boxes: 0,
+            joins,
+            seams,
+            classes: vec![],
+        }
     }
 
     /// Whether all that the certificate claims is proved.

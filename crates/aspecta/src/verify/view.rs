@@ -415,8 +415,11 @@ impl<'a> View<'a> {
 
     fn fold_margins_in<const D: usize>(&self, fold: &Fold) -> Vec<Interval> {
         let (robot, chart) = (self.setting.robot, self.setting.chart);
-        let over =
-            Body::<Function, D>::new(robot, chart, &std::array::from_fn(|k| Function::variable(self.y[k], k)));
+        let over = Body::<Function, D>::new(
+            robot,
+            chart,
+            &std::array::from_fn(|k| Function::variable(self.y[k], k)),
+        );
         let at_middle = Body::<Interval, D>::new(robot, chart, &self.y.map(|x| Interval::point(x.mid())));
         let (span, middle_span) = (over.span(fold.leg), at_middle.span(fold.leg));
         let bend = over.bend(fold.leg, &span).0;
