@@ -2,9 +2,10 @@
 
 use super::*;
 use crate::aspect::certified::certified;
-use crate::certificate::{Claim, Entry, Join, Leaf, Seam};
+use crate::certificate::{Claim, Entry, Join, Leaf};
+use crate::num::Scalar;
 use crate::paving::Budget;
-use crate::robot::{Actuator, Leg, Platform, Robot, catalogue};
+use crate::robot::{Actuator, Leg as RobotLeg, Limit, Platform, Robot, catalogue};
 use proptest::prelude::*;
 use std::sync::LazyLock;
 use std::sync::atomic::AtomicBool;
@@ -32,8 +33,8 @@ static COARSE: LazyLock<Certificate> = LazyLock::new(|| certify(&five_bar(), Som
 /// The first leg can fold up.
 static FOLDED: LazyLock<Certificate> = LazyLock::new(|| {
     let legs = vec![
-        Leg::revolute([0.0, 0.0], [0.0, 0.0], 6.0, 6.0),
-        Leg::revolute([9.0, 0.0], [0.0, 0.0], 5.0, 7.0),
+        RobotLeg::revolute([0.0, 0.0], [0.0, 0.0], 6.0, 6.0),
+        RobotLeg::revolute([9.0, 0.0], [0.0, 0.0], 5.0, 7.0),
     ];
     certify(&Robot::new("folding", Platform::PlanePoint, legs).unwrap(), None)
 });
@@ -160,16 +161,14 @@ fn good_paths_are_accepted() {
 #[test]
 fn seams_are_checked() {
     refuted(&FOLDED, "seam 0: the point lies in no inside leaf", |c| c.seams[0].class ^= 1);
-    // Where the chart is needed, next to the crank's axis, no leaf of sheet 0 is inside.
-    let sheet = &sheets(&FOLDED)[1].cells;
-    let inner = |k: &usize| sheet.leaves[*k].claims.inside != 0;
-    let nearest = |k: &usize| sheet.of(*k)[1].magnitude();
-    let leaf =
-        (0..sheet.leaves.len()).filter(inner).min_by(|a, b| nearest(a).total_cmp(&nearest(b))).unwrap();
-    let class = sheet.leaves[leaf].claims.inside.trailing_zeros() as usize;
-    let point = sheet.of(leaf)[..2].iter().map(|x| x.mid()).collect();
     refuted(&FOLDED, "the pose is not proved to lie in an inside leaf of sheet 0", |c| {
-        c.seams.push(Seam { class, sheet: 1, point });
+        let bit = 1 << c.seams[0].class;
+        for entry in &mut c.sheets[0].tree.0 {
+            if let Entry::Leaf(leaf) = entry {
+                leaf.undecided |= leaf.inside & bit;
+                leaf.inside &= !bit;
+            }
+        }
     });
 }
 
@@ -211,6 +210,44 @@ fn another_robot_has_other_aspects() {
             Actuator::Revolute { crank: Interval::point(6.5), rod: Interval::point(5.5) };
     });
     refuted(&COARSE, "the window is not the one", |c| c.window.ranges[0].0 += 1.0);
+}
+
+/// All kinds of legs and platforms: two programs agree on what is inside, outside and summitless.
+#[test]
+fn robots_of_the_catalogue() {
+    let names = catalogue::all().iter().map(|entry| entry.name);
+    for robot in names.filter_map(catalogue::find).filter(|robot| robot.dof() <= 3) {
+        let depth = Some(if robot.dof() == 2 { 5 } else { 3 });
+        let certificate = certify(&robot, depth);
+        let leaves = certificate.sheets[0].tree.0.len();
+        assert!(leaves > 100, "{}: {leaves}", robot.name);
+    }
+}
+
+/// A pair of narrow enclosures of the cosine and the sine.
+fn direction(angle: f64) -> (Interval, Interval) {
+    let (sin, cos) = Interval::point(angle).sin_cos();
+    (cos, sin)
+}
+
+#[test]
+fn limits_of_all_kinds_in_the_plane() {
+    let mut robot = five_bar();
+    let (middle, half_cos) = (direction(1.2), direction(1.5).0);
+    let (x, y) = direction(0.4);
+    let axis = [x, y, Interval::point(0.0)];
+    let wide = direction(2.0).0;
+    for (leg, limits) in robot.legs.iter_mut().zip([
+        vec![Limit::ActuatorAngle { middle, half_cos }, Limit::BaseCone { axis, half_cos: wide }],
+        vec![Limit::Elbow { middle, half_cos: wide }, Limit::PlatformCone { axis, half_cos: wide }],
+    ]) {
+        leg.limits = limits;
+    }
+    let certificate = certify(&robot, Some(6));
+    assert!(checked(&certificate).claims.inside > 20);
+    refuted(&certificate, "claimed", |c| {
+        c.robot.legs[0].limits[0] = Limit::ActuatorAngle { middle: direction(1.6), half_cos };
+    });
 }
 
 proptest! {
