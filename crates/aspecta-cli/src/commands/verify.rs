@@ -93,7 +93,7 @@ fn print(out: &mut dyn Write, certificate: &Certificate, verdict: &Verdict) -> R
         writeln!(out, "fault: {}", fault.in_words(&certificate.modes))?;
     }
     match verdict.is_verified() {
-        true => writeln!(out, "verified: {}", total(&certificate.claims))?,
+        true => writeln!(out, "verified: {}{}", total(&certificate.claims), restriction(certificate))?,
         false if verdict.complete => writeln!(out, "not verified")?,
         false => {}
     }
@@ -117,6 +117,12 @@ fn range(claim: Claim) -> String {
         Some(high) => format!("{}..{high}", claim.low),
         None => format!("≥ {}", claim.low),
     }
+}
+
+/// What the total leaves out.
+fn restriction(certificate: &Certificate) -> &'static str {
+    let all = certificate.robot.working_modes().len();
+    if certificate.modes.len() < all { ", in the working modes listed" } else { "" }
 }
 
 /// All classes together.

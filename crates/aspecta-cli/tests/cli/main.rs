@@ -7,6 +7,7 @@ mod csv;
 mod json;
 mod people;
 mod process;
+mod verify;
 
 use assert_cmd::Command;
 use serde_json::Value;

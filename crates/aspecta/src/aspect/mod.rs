@@ -11,6 +11,8 @@
 mod analyze;
 mod ascent;
 mod atlas;
+#[cfg(test)]
+pub(crate) mod certified;
 mod components;
 mod count;
 mod doubt;

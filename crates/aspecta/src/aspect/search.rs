@@ -106,7 +106,9 @@ impl<'a> Search<'a> {
                     (class, if old.is_exact() && !new.is_exact() { old } else { new })
                 })
                 .collect();
-            for leaf in counted.iter().flat_map(|(class, c)| c.summitless.iter().map(|&leaf| (leaf, class.bit))) {
+            for leaf in
+                counted.iter().flat_map(|(class, c)| c.summitless.iter().map(|&leaf| (leaf, class.bit)))
+            {
                 atlas.remember(leaf.0, leaf.1);
             }
         }

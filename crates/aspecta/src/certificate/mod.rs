@@ -6,7 +6,7 @@ mod check;
 mod tree;
 
 pub use check::Unsound;
-pub use tree::{Entry, Leaf, Tree, TreeError};
+pub use tree::{DEEPEST, Entry, Leaf, Tree, TreeError};
 
 use crate::aspect::Scale;
 use crate::kinematics::WorkingMode;

@@ -1,8 +1,11 @@
 //! Trees of boxes as text.
 
-use crate::paving::{ClassSet, MAX_BOXES, MAX_DEPTH, Paving};
+use crate::paving::{ClassSet, MAX_BOXES, Paving};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt::Write;
+
+/// Greatest depth of a tree.
+pub const DEEPEST: u32 = 30;
 
 /// What is claimed of one box, class by class (the bits of a [`ClassSet`]).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -56,7 +59,7 @@ pub enum TreeError {
         children: usize,
     },
     /// Cut too often.
-    #[error("the tree is deeper than {MAX_DEPTH}")]
+    #[error("the tree is deeper than {DEEPEST}")]
     Depth,
     /// Too large to hold.
     #[error("the tree has more than {MAX_BOXES} entries")]
@@ -106,7 +109,7 @@ impl Tree {
             }
             *open.last_mut().ok_or(shape.clone())? -= 1;
             match entry {
-                Entry::Split if open.len() > MAX_DEPTH as usize => return Err(TreeError::Depth),
+                Entry::Split if open.len() > DEEPEST as usize => return Err(TreeError::Depth),
                 Entry::Split => open.push(children),
                 Entry::Leaf(claims) => {
                     let all = claims.inside | claims.undecided | claims.summitless;
@@ -205,7 +208,7 @@ mod tests {
         ] {
             assert_eq!(Tree::parse(text).unwrap().check(2, 4), Err(error), "{text}");
         }
-        assert_eq!(Tree::parse(&"+".repeat(21)).unwrap().check(2, 4), Err(TreeError::Depth));
+        assert_eq!(Tree::parse(&"+".repeat(31)).unwrap().check(2, 4), Err(TreeError::Depth));
         assert_eq!(Tree::parse("+1"), Err(TreeError::OpenLeaf));
         assert_eq!(Tree::parse("+x"), Err(TreeError::Sign { sign: 'x', at: 2 }));
         for text in ["10000;", "1:2:3:4;", "1*;", "1+;"] {

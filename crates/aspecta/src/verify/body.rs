@@ -36,8 +36,6 @@ pub(super) struct LegState<T> {
     pub equation: T,
     /// B_jj = ∂f/∂q.
     pub slope: T,
-    /// H; none for struts.
-    pub reach: Option<T>,
     /// ∂f/∂X: translations, then the rotation vector in the base frame.
     pub row: [T; MOST],
     /// How far inside each limit it is.
@@ -200,7 +198,7 @@ impl<'a, T: Scalar, const D: usize> Body<'a, T, D> {
         let slope = f.gradient[3];
         let limits = leg.limits.iter().map(|limit| self.margin(j, limit, span, q, slope)).collect();
         let row = std::array::from_fn(|i| f.gradient[i]);
-        LegState { equation: f.value, slope, reach: self.reach(j, span), row, limits }
+        LegState { equation: f.value, slope, row, limits }
     }
 
     /// How far inside a limit leg j is: a function of the configuration, positive strictly inside.

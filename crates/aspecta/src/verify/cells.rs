@@ -2,12 +2,9 @@
 
 use super::body::MOST;
 use super::view::Coordinates;
-use crate::certificate::{Entry, Leaf, Tree};
+use crate::certificate::{DEEPEST, Entry, Leaf, Tree};
 use crate::num::Interval;
 use crate::robot::Window;
-
-/// Subdivisions of the grid on which corners are compared.
-const FINEST: u32 = 20;
 
 /// A leaf: cell `corner` of the grid window / 2^depth. Entries beyond the axes are 0.
 #[derive(Clone, Copy, Debug)]
@@ -104,10 +101,10 @@ impl Cells {
     /// Visits the leaves that share a point with a leaf, across glued coordinates too; itself among them, some more than once.
     pub(super) fn touching(&self, leaf: usize, visit: &mut impl FnMut(usize)) {
         let extent = |corner: u32, depth: u32| {
-            let cell = 1i64 << (FINEST - depth);
+            let cell = 1i64 << (DEEPEST - depth);
             (i64::from(corner) * cell, (i64::from(corner) + 1) * cell)
         };
-        let turn = 1i64 << FINEST;
+        let turn = 1i64 << DEEPEST;
         let Cell { corner, depth, .. } = self.leaves[leaf];
         for wrap in self.wraps() {
             let mine: [(i64, i64); MOST] = std::array::from_fn(|a| {

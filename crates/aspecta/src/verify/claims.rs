@@ -8,7 +8,7 @@ use crate::num::Interval;
 use crate::paving::ClassSet;
 
 /// Most boxes into which the proof of a leaf is cut, before the claim counts as unproved.
-const EFFORT: usize = 20_000;
+const EFFORT: usize = 5_000;
 
 /// Claims still to be proved in a box.
 #[derive(Clone, Copy, Debug, Default)]

@@ -30,11 +30,22 @@ pub(super) fn check(certificate: &Certificate, sheets: &[Sheet<'_>], verdict: &m
     links
 }
 
-/// The leaves of a sheet that hold all of a box and are inside a class.
+/// Leaves of a sheet that are inside a class and connected by a small box, of which it is enough to know that one point of it
+/// matters: one that holds all of it, or all those that it meets.
 fn inside(sheets: &[Sheet<'_>], sheet: usize, y: &Coordinates, class: usize) -> Vec<(usize, usize)> {
-    let cells = &sheets[sheet].cells;
+    let Sheet { setting, cells } = &sheets[sheet];
     let is_inside = |leaf: &usize| cells.leaves[*leaf].claims.inside >> class & 1 == 1;
-    cells.holding(y).into_iter().filter(is_inside).map(|leaf| (sheet, leaf)).collect()
+    let mut found: Vec<usize> = cells.holding(y).into_iter().filter(is_inside).collect();
+    let window = &setting.window;
+    let within = |k: usize| window.glued[k] || window.ranges[k].0 <= y[k].lo && y[k].hi <= window.ranges[k].1;
+    if found.is_empty() && (0..window.ranges.len()).all(within) {
+        // The leaves cover the box: if all are inside, so is the box, which is connected.
+        cells.meeting(y, &mut |leaf| found.push(leaf));
+        if !found.iter().all(is_inside) {
+            found.clear();
+        }
+    }
+    found.into_iter().map(|leaf| (sheet, leaf)).collect()
 }
 
 fn link_of_join(

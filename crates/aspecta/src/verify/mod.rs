@@ -19,7 +19,7 @@
 //! - **High.** P = min of σ det A, the H_j, the limits and the distances to faces that the user's window cuts, each divided by
 //!   the same positive number everywhere, is continuous and vanishes on the boundary of S, so each component has a maximum of P. In a
 //!   *summitless* leaf there is none: on each part of it some tangent vector of the configurations makes every function grow that can be the
-//!   least there. So each component has its maximum in an inside leaf that is not summitless. Inside leaves that touch, or are linked
+//!   least there, or σ det A alone can be and is convex along a line. So each component has its maximum in an inside leaf that is not summitless. Inside leaves that touch, or are linked
 //!   by a *join* (a path in S) or a *seam* (a configuration in both), lie in one component.
 //!
 //! # Tangent vectors
@@ -37,6 +37,7 @@ mod cells;
 mod charts;
 mod claims;
 mod count;
+mod curvature;
 mod direction;
 mod graph;
 mod links;
@@ -57,7 +58,7 @@ use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use view::{Coordinates, Setting};
 
 /// Faults after which no more are sought.
-const ENOUGH: usize = 20;
+const ENOUGH: usize = 10;
 
 /// Checks a certificate that has been read ([`Certificate::from_json`]).
 ///

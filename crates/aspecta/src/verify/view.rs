@@ -1,6 +1,7 @@
 //! What intervals prove of one box of a chart.
 
 use super::body::{Body, LegState, MOST, joint};
+use super::curvature::has_no_maximum;
 use super::direction::climbable;
 use crate::aspect::Scale;
 use crate::kinematics::WorkingMode;
@@ -24,6 +25,13 @@ pub(super) struct Setting<'a> {
     pub chart: &'a Chart,
     pub window: Window,
     pub scale: &'a Scale,
+}
+
+impl Setting<'_> {
+    /// Whether leg j is that of the fold, so that its q is the first coordinate.
+    pub(super) fn is_fold(&self, j: usize) -> bool {
+        matches!(self.chart, Chart::Fold(fold) if fold.leg == j)
+    }
 }
 
 /// A box of coordinates; entries beyond the last coordinate are zero.
@@ -114,7 +122,7 @@ impl<'a> View<'a> {
     ) -> Posture {
         let sign = if posture == 0 { 1.0 } else { -1.0 };
         let actuator = &self.setting.robot.legs[j].actuator;
-        let is_coordinate = matches!(self.setting.chart, Chart::Fold(fold) if fold.leg == j);
+        let is_coordinate = self.setting.is_fold(j);
         let mut found = Joint {
             q: self.y[0],
             middle: Interval::point(self.y[0].mid()),
@@ -276,6 +284,10 @@ impl<'a> View<'a> {
             return true;
         }
         let active: Vec<&Constraint> = constraints.iter().filter(|c| c.value.lo <= least).collect();
+        let det_alone = active.len() == 1 && constraints[0].value.lo <= least;
+        if det_alone && legs.iter().flatten().all(|leg| !leg.loose) && self.det_has_no_maximum(sign, &legs) {
+            return true;
+        }
         self.choices_of_loose(&legs).into_iter().any(|loose| {
             self.velocities(&legs, &loose).is_some_and(|velocities| {
                 let growth = |c: &&Constraint| -> Vec<Interval> {
@@ -289,27 +301,12 @@ impl<'a> View<'a> {
         })
     }
 
-    #[cfg(test)]
-    pub(super) fn explain(&self, mode: WorkingMode, sign: f64) {
-        let legs = self.legs(mode).unwrap();
-        let constraints = self.constraints(mode, sign, &legs);
-        for (j, l) in legs.iter().enumerate() {
-            if let Some(l) = l {
-                println!("leg {j} q {} loose {} slope {} reach {}", l.q, l.loose, l.slope, self.reach[j]);
-            }
-        }
-        for loose in self.choices_of_loose(&legs) {
-            println!("loose {loose:?}");
-            let Some(v) = self.velocities(&legs, &loose) else { continue };
-            for c in &constraints {
-                let g: Vec<Interval> =
-                    v.iter().map(|v| (0..6).fold(ZERO, |sum, k| sum + c.gradient[k] * v[k])).collect();
-                println!(
-                    "  value {} growth {:?}",
-                    c.value,
-                    g.iter().map(|g| format!("{:.4e},{:.4e}", g.lo, g.hi)).collect::<Vec<_>>()
-                );
-            }
+    fn det_has_no_maximum(&self, sign: f64, legs: &[Option<&Posture>; MOST]) -> bool {
+        let over = legs.map(|leg| leg.map_or(ZERO, |leg| leg.q));
+        let at_middle = legs.map(|leg| leg.map_or(0.0, |leg| leg.middle.mid()));
+        match self.setting.robot.platform.space() {
+            2 => has_no_maximum::<2>(self.setting, &self.y, (&over, &at_middle), sign),
+            _ => has_no_maximum::<3>(self.setting, &self.y, (&over, &at_middle), sign),
         }
     }
 
@@ -355,7 +352,7 @@ impl<'a> View<'a> {
     /// whose B_jj varies much may better be.
     fn choices_of_loose(&self, legs: &[Option<&Posture>; MOST]) -> Vec<Vec<usize>> {
         let among = |wanted: &dyn Fn(&Posture) -> bool| -> Vec<usize> {
-            let fit = |j: &usize| !self.is_fold(*j) && legs[*j].is_some_and(wanted);
+            let fit = |j: &usize| !self.setting.is_fold(*j) && legs[*j].is_some_and(wanted);
             (0..MOST).filter(fit).collect()
         };
         let must = among(&|p| p.loose);
@@ -365,10 +362,6 @@ impl<'a> View<'a> {
         };
         let may = among(&varied);
         if must == may { vec![must] } else { vec![may, must] }
-    }
-
-    fn is_fold(&self, j: usize) -> bool {
-        matches!(self.setting.chart, Chart::Fold(fold) if fold.leg == j)
     }
 
     /// As many tangent vectors of the configurations as there are coordinates that vary. With n_j = ∂f_j/∂y they fulfil
@@ -463,7 +456,7 @@ fn nearest_turn(angle: Interval, near: Interval) -> Interval {
 }
 
 /// The determinant of the first n rows and columns, n = 2 or 3.
-fn determinant<T: Scalar>(n: usize, m: &[[T; MOST]; MOST]) -> T {
+pub(super) fn determinant<T: Scalar>(n: usize, m: &[[T; MOST]; MOST]) -> T {
     let minor = |i: usize, j: usize| m[1][i] * m[2][j] - m[1][j] * m[2][i];
     match n {
         2 => m[0][0] * m[1][1] - m[0][1] * m[1][0],

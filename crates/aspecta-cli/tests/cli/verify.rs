@@ -1,0 +1,82 @@
+//! `aspecta verify`: exit statuses and what is said.
+
+use crate::{aspecta, json};
+use aspecta::aspect::Scale;
+use aspecta::certificate::{Certificate, Claim};
+use aspecta::paving::{Budget, Control, Paving};
+use aspecta::robot::{Robot, catalogue};
+use std::path::PathBuf;
+use std::sync::atomic::AtomicBool;
+use tempfile::TempDir;
+
+/// A certificate of the five-bar from an even paving, which claims that each class has `low` aspects at least.
+fn certificate(low: usize) -> Certificate {
+    let robot: Robot = catalogue::find("five-bar").unwrap();
+    let (window, modes) = (robot.workspace_window().unwrap(), robot.working_modes());
+    let control = Control { cancelled: &AtomicBool::new(false), progress: &|_| {} };
+    let budget = Budget { depth: Some(6), ..Budget::default() };
+    let paving = Paving::new(&robot, &window, &modes, &budget, &control);
+    let scale = Scale::of(&robot, &window, &modes);
+    Certificate::new(&robot, &scale, &[paving], vec![], vec![], vec![Claim { low, high: None }; 8])
+}
+
+fn file(directory: &TempDir, text: &str) -> PathBuf {
+    let path = directory.path().join("five-bar.json");
+    std::fs::write(&path, text).unwrap();
+    path
+}
+
+#[test]
+fn what_is_proved_is_verified() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = file(&directory, &certificate(1).to_json().unwrap());
+    let output = aspecta("verify --robot five-bar").arg(&path).output().unwrap();
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(output.status.code(), Some(0), "{text}");
+    assert!(text.contains("verified: at least 8 generalized aspects"), "{text}");
+    assert!(output.stderr.is_empty());
+    let verdict = json(&format!("verify --json {}", path.display()));
+    assert_eq!((&verdict["complete"], &verdict["faults"]), (&true.into(), &serde_json::json!([])));
+    assert_eq!(verdict["classes"][3]["mode"], "+-");
+}
+
+#[test]
+fn what_is_not_proved_is_not_verified() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = file(&directory, &certificate(3).to_json().unwrap());
+    let output = aspecta("verify").arg(&path).output().unwrap();
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(output.status.code(), Some(1), "{text}");
+    assert!(
+        text.contains("fault: class 0 (++, det A > 0): at least 3 aspects are claimed, 1 are proved"),
+        "{text}"
+    );
+    assert!(text.ends_with("not verified\n"), "{text}");
+}
+
+#[test]
+fn a_certificate_of_another_robot_does_not_do() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = file(&directory, &certificate(1).to_json().unwrap());
+    let output = aspecta("verify --robot 2-prr").arg(&path).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("not the robot `2-prr`"));
+}
+
+#[test]
+fn what_cannot_be_read_is_bad_input() {
+    let directory = tempfile::tempdir().unwrap();
+    let text = certificate(1).to_json().unwrap();
+    let version = text.replacen("\"certificate_version\":1", "\"certificate_version\":9", 1);
+    let cases =
+        [(&text[..text.len() / 2], "damaged"), ("{}", "not a certificate"), (version.as_str(), "version 9")];
+    for (text, complaint) in cases {
+        let output = aspecta("verify").arg(file(&directory, text)).output().unwrap();
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert!(message.contains(complaint) && output.stdout.is_empty(), "{message}");
+    }
+    let missing = aspecta("verify no-such-file.json").output().unwrap();
+    assert_eq!(missing.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&missing.stderr).contains("no-such-file.json"));
+}

@@ -1,0 +1,76 @@
+//! The second-order test for summits.
+//!
+//! Where det A alone is the least of the functions of P, all over a box, and every leg closes strictly, P is σ det A / scale near each point of
+//! it. If σ det A has a positive second derivative along one and the same straight line of coordinates at all points of the box, none is a
+//! local maximum. This settles boxes at double points of det A = 0, where no direction leads uphill.
+
+use super::body::{Body, MOST};
+use super::view::{Coordinates, Setting, determinant};
+use crate::num::{Interval, Jet, Scalar};
+use nalgebra::DMatrix;
+
+/// A function of the parameter t of a line, with two derivatives.
+type Twice<S> = Jet<Jet<S, 1>, 1>;
+
+fn twice<S: Scalar>(value: S, first: S, second: S) -> Twice<S> {
+    Jet { value: Jet { value, gradient: [first] }, gradient: [Jet { value: first, gradient: [second] }] }
+}
+
+/// The second derivative of det A along the line y + t v at t = 0, where the legs have the joint coordinates q (if a leg is the
+/// fold's, its own is not looked at).
+fn second<S: Scalar, const D: usize>(
+    setting: &Setting<'_>,
+    y: &[S; MOST],
+    v: &[f64; MOST],
+    q: &[S; MOST],
+) -> S {
+    let zero = S::zero();
+    let line = |k: usize| twice(y[k], S::constant(Interval::point(v[k])), zero);
+    let line: [Twice<S>; MOST] = std::array::from_fn(line);
+    let body = Body::<Twice<S>, D>::new(setting.robot, setting.chart, &line);
+    let n = setting.robot.dof();
+    let mut rows = [[Twice::<S>::zero(); MOST]; MOST];
+    for j in 0..n {
+        let span = body.span(j);
+        if setting.is_fold(j) {
+            rows[j] = body.leg(j, &span, line[0]).row;
+            continue;
+        }
+        // f(y + t v, q(t)) = 0 for all t: its first derivative gives q̇, its second q̈.
+        let still = body.leg(j, &span, twice(q[j], zero, zero));
+        let slope = still.slope.value.value;
+        let rate = -(still.equation.gradient[0].value / slope);
+        let moving = body.leg(j, &span, twice(q[j], rate, zero));
+        let bend = -(moving.equation.gradient[0].gradient[0] / slope);
+        rows[j] = body.leg(j, &span, twice(q[j], rate, bend)).row;
+    }
+    determinant(n, &rows).gradient[0].gradient[0]
+}
+
+/// Whether σ det A has no local maximum in the box; σ = `sign`, `q` as in [`second`] over the box and at its middle.
+pub(super) fn has_no_maximum<const D: usize>(
+    setting: &Setting<'_>,
+    y: &Coordinates,
+    q: (&[Interval; MOST], &[f64; MOST]),
+    sign: f64,
+) -> bool {
+    let axes = setting.window.axes();
+    let middle = y.map(Interval::mid);
+    let along = |directions: &[(usize, f64)]| {
+        let mut v = [0.0; MOST];
+        directions.iter().for_each(|&(a, x)| v[axes[a]] += x);
+        second::<f64, D>(setting, &middle, &v, q.1)
+    };
+    // How the line is found does not matter: the greatest eigenvector of the Hessian at the middle.
+    let hessian = DMatrix::from_fn(axes.len(), axes.len(), |a, b| {
+        sign * 0.25 * (along(&[(a, 1.0), (b, 1.0)]) - along(&[(a, 1.0), (b, -1.0)]))
+    });
+    if hessian.iter().any(|x| !x.is_finite()) {
+        return false;
+    }
+    let eigen = hessian.symmetric_eigen();
+    let vector = eigen.eigenvectors.column(eigen.eigenvalues.imax());
+    let mut v = [0.0; MOST];
+    axes.iter().enumerate().for_each(|(a, &k)| v[k] = vector[a]);
+    (second::<Interval, D>(setting, y, &v, q.0) * Interval::point(sign)).is_positive()
+}
