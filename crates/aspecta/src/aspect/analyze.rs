@@ -54,8 +54,11 @@ pub enum AnalysisError {
 ///   boxes, so it lies in one component of G⁺; distinct such components hold distinct aspects.
 /// - **pieces** of an aspect (certified): inside boxes joined by touching, or by certified ascent paths.
 ///
-/// No upper bound is proved while undecided boxes are left (an aspect could hide in them): `high` is then
-/// `None`. If nothing is left undecided, G⁻ = G⁺ and the count is exact.
+/// - **high** (certified): the number of components of G⁻ that may hold the summit of an aspect, provided that no undecided box may
+///   (`docs/theory.md`, 4 and 5); else `None`.
+///
+/// Boxes are refined where they keep the bounds apart, until they meet or the budget ends; [`Analysis::doubts`] then
+/// says where they are apart and why.
 ///
 /// In a slice ([`Options::fix`]) S_{s,σ} is cut by the slice; det A remains that of the whole robot. Each aspect of the slice
 /// lies in one aspect of the robot; several may lie in the same.
