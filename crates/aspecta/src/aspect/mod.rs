@@ -11,8 +11,6 @@
 mod analyze;
 mod ascent;
 mod atlas;
-#[cfg(test)]
-pub(crate) mod certified;
 mod components;
 mod count;
 mod doubt;
