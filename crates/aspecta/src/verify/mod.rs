@@ -41,6 +41,7 @@ mod curvature;
 mod direction;
 mod graph;
 mod links;
+mod summit;
 #[cfg(test)]
 mod tests;
 mod verdict;

@@ -1,8 +1,6 @@
 //! What intervals prove of one box of a chart.
 
 use super::body::{Body, LegState, MOST, joint};
-use super::curvature::has_no_maximum;
-use super::direction::climbable;
 use crate::aspect::Scale;
 use crate::kinematics::WorkingMode;
 use crate::kinematics::chart::{Chart, Fold};
@@ -11,13 +9,10 @@ use crate::num::{Interval, Jet, Scalar};
 use crate::robot::{Actuator, Robot, Window};
 
 /// An enclosure of a function over a box, and of its derivatives with respect to the coordinates and to each leg's q.
-type Function = Jet<Interval, 6>;
+pub(super) type Function = Jet<Interval, 6>;
 
-/// A velocity: of the coordinates, then of each leg's q.
-type Velocity = [Interval; 6];
-
-const ZERO: Interval = Interval::point(0.0);
-const ONE: Interval = Interval::point(1.0);
+pub(super) const ZERO: Interval = Interval::point(0.0);
+pub(super) const ONE: Interval = Interval::point(1.0);
 
 /// Coordinates and what the checks of one sheet need to know.
 pub(super) struct Setting<'a> {
@@ -38,30 +33,30 @@ impl Setting<'_> {
 pub(super) type Coordinates = [Interval; MOST];
 
 /// A leg in one posture over the box.
-struct Posture {
+pub(super) struct Posture {
     /// All q there.
-    q: Interval,
+    pub q: Interval,
     /// q at the box's middle, or, where the leg is loose, any q.
-    middle: Interval,
+    pub middle: Interval,
     /// Whether q is treated as a coordinate of its own: it is not proved to be a smooth function of the others on all the box.
-    loose: bool,
+    pub loose: bool,
     /// ∂q/∂y elsewhere.
-    rate: [Interval; MOST],
-    over: LegState<Function>,
+    pub rate: [Interval; MOST],
+    pub over: LegState<Function>,
     at_middle: LegState<Interval>,
     /// Range of s B_jj: positive in the posture.
     slope: Interval,
-    limits: Vec<Interval>,
+    pub limits: Vec<Interval>,
 }
 
 /// The robot over a box.
 pub(super) struct View<'a> {
-    setting: &'a Setting<'a>,
-    y: Coordinates,
+    pub setting: &'a Setting<'a>,
+    pub y: Coordinates,
     /// y minus its middle.
     about: Coordinates,
     /// Range of H_j; [1, 1] for struts.
-    reach: [Interval; MOST],
+    pub reach: [Interval; MOST],
     /// For s = + and s = −; a strut has the second only, and a leg that cannot close anywhere in the box has none.
     postures: [[Option<Posture>; 2]; MOST],
 }
@@ -227,7 +222,7 @@ impl<'a> View<'a> {
     }
 
     /// The legs in a mode, or `None` if one cannot close.
-    fn legs(&self, mode: WorkingMode) -> Option<[Option<&Posture>; MOST]> {
+    pub(super) fn legs(&self, mode: WorkingMode) -> Option<[Option<&Posture>; MOST]> {
         let mut legs = [None; MOST];
         for (j, leg) in legs.iter_mut().enumerate().take(mode.legs()) {
             *leg = Some(self.postures[j][usize::from(mode.sign(j) < 0)].as_ref()?);
@@ -265,7 +260,7 @@ impl<'a> View<'a> {
         self.legs(mode).map_or(ZERO, |legs| self.determinant_of(&legs).1)
     }
 
-    fn determinant_of(&self, legs: &[Option<&Posture>; MOST]) -> (Function, Interval) {
+    pub(super) fn determinant_of(&self, legs: &[Option<&Posture>; MOST]) -> (Function, Interval) {
         let rows = |j: usize| legs[j].map_or([Function::zero(); MOST], |leg| leg.over.row);
         let middle_rows = |j: usize| legs[j].map_or([ZERO; MOST], |leg| leg.at_middle.row);
         let n = self.setting.robot.dof();
@@ -273,125 +268,6 @@ impl<'a> View<'a> {
         let at_middle = determinant(n, &std::array::from_fn(middle_rows));
         let range = self.range(&over, at_middle, legs);
         (over, range)
-    }
-
-    /// Whether P certainly has no maximum in the box, in the class of a mode and the sign of det A (module documentation).
-    pub(super) fn is_summitless(&self, mode: WorkingMode, sign: f64) -> bool {
-        let Some(legs) = self.legs(mode) else { return true };
-        let constraints = self.constraints(mode, sign, &legs);
-        let least = constraints.iter().fold(f64::INFINITY, |least, c| least.min(c.value.hi));
-        if least <= 0.0 {
-            return true;
-        }
-        let active: Vec<&Constraint> = constraints.iter().filter(|c| c.value.lo <= least).collect();
-        let det_alone = active.len() == 1 && constraints[0].value.lo <= least;
-        if det_alone && legs.iter().flatten().all(|leg| !leg.loose) && self.det_has_no_maximum(sign, &legs) {
-            return true;
-        }
-        self.choices_of_loose(&legs).into_iter().any(|loose| {
-            self.velocities(&legs, &loose).is_some_and(|velocities| {
-                let growth = |c: &&Constraint| -> Vec<Interval> {
-                    velocities
-                        .iter()
-                        .map(|v| (0..6).fold(ZERO, |sum, k| sum + c.gradient[k] * v[k]))
-                        .collect()
-                };
-                climbable(&active.iter().map(growth).collect::<Vec<_>>())
-            })
-        })
-    }
-
-    fn det_has_no_maximum(&self, sign: f64, legs: &[Option<&Posture>; MOST]) -> bool {
-        let over = legs.map(|leg| leg.map_or(ZERO, |leg| leg.q));
-        let at_middle = legs.map(|leg| leg.map_or(0.0, |leg| leg.middle.mid()));
-        match self.setting.robot.platform.space() {
-            2 => has_no_maximum::<2>(self.setting, &self.y, (&over, &at_middle), sign),
-            _ => has_no_maximum::<3>(self.setting, &self.y, (&over, &at_middle), sign),
-        }
-    }
-
-    /// The functions whose least is P, scaled, and gradients of increasing functions of them.
-    fn constraints(&self, mode: WorkingMode, sign: f64, legs: &[Option<&Posture>; MOST]) -> Vec<Constraint> {
-        let scale = self.setting.scale;
-        let exact = Interval::point;
-        let (det, range) = self.determinant_of(legs);
-        let mut all = vec![Constraint {
-            value: range * exact(sign) / exact(scale.det),
-            gradient: det.gradient.map(|g| g * exact(sign)),
-        }];
-        for (j, leg) in legs.iter().enumerate().filter_map(|(j, leg)| Some((j, (*leg)?))) {
-            if self.setting.robot.legs[j].actuator.postures() == 2 {
-                // H = B² (B²/4): where s B > 0 it grows as s B does.
-                let s = exact(f64::from(mode.sign(j)));
-                let gradient = leg.over.slope.gradient.map(|g| g * s);
-                all.push(Constraint { value: self.reach[j] / exact(scale.reach[j]), gradient });
-            }
-            for (k, limit) in leg.over.limits.iter().enumerate() {
-                let value = leg.limits[k] / exact(scale.limits[j][k]);
-                all.push(Constraint { value, gradient: limit.gradient });
-            }
-        }
-        for k in 0..self.setting.robot.dof() {
-            let (lo, hi) = self.setting.window.ranges[k];
-            let cut = self.setting.window.cut[k];
-            let width = exact(hi) - exact(lo);
-            for (cut, distance, sign) in
-                [(cut.0, self.y[k] - exact(lo), 1.0), (cut.1, exact(hi) - self.y[k], -1.0)]
-            {
-                if cut && lo < hi {
-                    let mut gradient = [ZERO; 6];
-                    gradient[k] = exact(sign);
-                    all.push(Constraint { value: distance / width, gradient });
-                }
-            }
-        }
-        all
-    }
-
-    /// Sets of legs for which velocities are chosen with care: those whose B_jj may vanish must be among them; those
-    /// whose B_jj varies much may better be.
-    fn choices_of_loose(&self, legs: &[Option<&Posture>; MOST]) -> Vec<Vec<usize>> {
-        let among = |wanted: &dyn Fn(&Posture) -> bool| -> Vec<usize> {
-            let fit = |j: &usize| !self.setting.is_fold(*j) && legs[*j].is_some_and(wanted);
-            (0..MOST).filter(fit).collect()
-        };
-        let must = among(&|p| p.loose);
-        let varied = |p: &Posture| {
-            let b = p.over.slope.value;
-            p.loose || b.lo.abs().min(b.hi.abs()) < 0.5 * b.magnitude()
-        };
-        let may = among(&varied);
-        if must == may { vec![must] } else { vec![may, must] }
-    }
-
-    /// As many tangent vectors of the configurations as there are coordinates that vary. With n_j = ∂f_j/∂y they fulfil
-    /// n_j·ẏ + B_jj q̇_j = 0 exactly at every point of the box. For the loose legs, either n_j·ẏ = 0 and q̇_j = 0, by an exact cross
-    /// product, or ẏ = −B_jj c and q̇_j = n_j·c.
-    fn velocities(&self, legs: &[Option<&Posture>; MOST], loose: &[usize]) -> Option<Vec<Velocity>> {
-        let axes = self.setting.window.axes();
-        let normal = |j: usize| -> Coordinates {
-            let gradient = legs[j].map_or([ZERO; 6], |leg| leg.over.equation.gradient);
-            std::array::from_fn(|a| axes.get(a).map_or(ZERO, |&k| gradient[k]))
-        };
-        let normals: Vec<Coordinates> = loose.iter().map(|&j| normal(j)).collect();
-        let mut all = Vec::new();
-        for (direction, own) in directions(axes.len(), &normals)? {
-            let mut velocity = [ZERO; 6];
-            let own = own.map(|i| (loose[i], normals[i]));
-            let factor = own.and_then(|(j, _)| legs[j]).map_or(ONE, |leg| -leg.over.slope.value);
-            for (a, &k) in axes.iter().enumerate() {
-                velocity[k] = direction[a] * factor;
-            }
-            for (j, leg) in legs.iter().enumerate().filter_map(|(j, leg)| Some((j, (*leg)?))) {
-                velocity[MOST + j] = match own {
-                    Some((i, normal)) if i == j => dot(&normal, &direction),
-                    _ if loose.contains(&j) => ZERO,
-                    _ => (0..MOST).fold(ZERO, |sum, k| sum + leg.rate[k] * velocity[k]),
-                };
-            }
-            all.push(velocity);
-        }
-        Some(all)
     }
 
     /// Whether the chart of a fold holds all configurations of the box (of pose coordinates).
@@ -443,12 +319,6 @@ struct Joint {
     rate: [Interval; MOST],
 }
 
-/// One of the functions whose least is P.
-struct Constraint {
-    value: Interval,
-    gradient: [Interval; 6],
-}
-
 /// An angle, turned to be near another.
 fn nearest_turn(angle: Interval, near: Interval) -> Interval {
     let turns = ((near.mid() - angle.mid()) / std::f64::consts::TAU).round();
@@ -462,49 +332,4 @@ pub(super) fn determinant<T: Scalar>(n: usize, m: &[[T; MOST]; MOST]) -> T {
         2 => m[0][0] * m[1][1] - m[0][1] * m[1][0],
         _ => m[0][0] * minor(1, 2) + m[0][1] * minor(2, 0) + m[0][2] * minor(0, 1),
     }
-}
-
-fn dot(a: &Coordinates, b: &Coordinates) -> Interval {
-    (0..MOST).fold(ZERO, |sum, k| sum + a[k] * b[k])
-}
-
-fn cross(a: &Coordinates, b: &Coordinates) -> Coordinates {
-    std::array::from_fn(|i| {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        a[j] * b[k] - a[k] * b[j]
-    })
-}
-
-/// The middle of a vector, at length one.
-fn unit(v: &Coordinates) -> Coordinates {
-    let middle = v.map(Interval::mid);
-    let length = middle.iter().map(|x| x * x).sum::<f64>().sqrt();
-    middle.map(|x| Interval::point(if length.is_normal() { x / length } else { x }))
-}
-
-/// `count` directions: first those perpendicular to all the normals, then for each normal (its index given) one that is
-/// perpendicular to all the others. `None` if there are more normals than directions.
-fn directions(count: usize, normals: &[Coordinates]) -> Option<Vec<(Coordinates, Option<usize>)>> {
-    let axis = |a: usize| std::array::from_fn(|k| if k == a { ONE } else { ZERO });
-    // Perpendicular to a vector of the first two axes, in their plane.
-    let quarter = |v: &Coordinates| [-v[1], v[0], ZERO];
-    Some(match (count, normals) {
-        (_, []) => (0..count).map(|a| (axis(a), None)).collect(),
-        (1, [_]) => vec![(axis(0), Some(0))],
-        (2, [n]) => vec![(quarter(n), None), (unit(n), Some(0))],
-        (2, [n, m]) => vec![(quarter(m), Some(0)), (quarter(n), Some(1))],
-        (3, [n]) => {
-            let middle = unit(n);
-            let flattest = (0..3).min_by(|&a, &b| middle[a].magnitude().total_cmp(&middle[b].magnitude()))?;
-            let first = unit(&cross(&middle, &axis(flattest)));
-            let second = unit(&cross(&middle, &first));
-            vec![(cross(n, &first), None), (cross(n, &second), None), (middle, Some(0))]
-        }
-        (3, [n, m]) => {
-            let edge = unit(&cross(&unit(n), &unit(m)));
-            vec![(cross(n, m), None), (cross(m, &edge), Some(0)), (cross(n, &edge), Some(1))]
-        }
-        (3, [n, m, l]) => vec![(cross(m, l), Some(0)), (cross(l, n), Some(1)), (cross(n, m), Some(2))],
-        _ => return None,
-    })
 }
