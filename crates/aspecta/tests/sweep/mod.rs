@@ -4,9 +4,9 @@
 //! on ψ alone, the direction β of A₁X. At one ψ the point X runs on a circle about A₁, of which leg 2 reaches up to two arcs. Their
 //! parameter t meets the ends as the elbow angle of leg 2 does, at its extremes, so that det A is smooth there (it is not in β). On the arcs
 //! zeros of det A are found by sampling, by a search of every minimum of |det A|, and by bisection; they part *runs* of one sign.
-//! Runs of two neighbouring ψ are one component if both slices have as many runs, of the same signs, each of which overlaps its
-//! counterpart in β. Where they do not, there is an event in between, and ψ is halved down to 10⁻¹⁰; then those of one sign that overlap are
-//! one. Nothing is filtered by size; what can be missed is what begins and ends between two slices or two samples, so
+//! Runs of two neighbouring ψ are one component if both slices have the same arcs with as many runs, of the same signs, each of which
+//! overlaps its counterpart in t. Where they do not, there is an event in between, and ψ is halved down to 10⁻¹⁰; then those of one sign
+//! that overlap are one (in t; in β where the arcs themselves change). Nothing is filtered by size; what can be missed is what begins and ends between two slices or two samples, so
 //! counts are to be trusted only if they stay when both numbers change and when the legs change places.
 
 use std::collections::BTreeMap;
@@ -117,14 +117,19 @@ enum Kind {
 struct Run {
     arc: usize,
     sign: i8,
-    lo: f64,
-    hi: f64,
+    t: (f64, f64),
+    beta: (f64, f64),
     id: usize,
 }
 
 impl Run {
-    fn overlaps(&self, other: &Self) -> bool {
-        [-TAU, 0.0, TAU].iter().any(|turn| self.lo < other.hi + turn && other.lo + turn < self.hi)
+    fn overlaps_in_t(&self, other: &Self) -> bool {
+        self.arc == other.arc && self.t.0 < other.t.1 && other.t.0 < self.t.1
+    }
+
+    fn overlaps_in_beta(&self, other: &Self) -> bool {
+        let (a, b) = (self.beta, other.beta);
+        [-TAU, 0.0, TAU].iter().any(|turn| a.0 < b.1 + turn && b.0 + turn < a.1)
     }
 }
 
@@ -136,7 +141,7 @@ struct Slice {
 
 impl Slice {
     fn matches(&self, other: &Self) -> bool {
-        let same = |(a, b): (&Run, &Run)| a.arc == b.arc && a.sign == b.sign && a.overlaps(b);
+        let same = |(a, b): (&Run, &Run)| a.sign == b.sign && a.overlaps_in_t(b);
         self.kind == other.kind
             && self.runs.len() == other.runs.len()
             && self.runs.iter().zip(&other.runs).all(same)
@@ -188,8 +193,9 @@ impl<'a> Sweep<'a> {
             self.link(left, &middle);
             self.link(&middle, right);
         } else {
+            let overlap = if left.kind == right.kind { Run::overlaps_in_t } else { Run::overlaps_in_beta };
             for a in &left.runs {
-                right.runs.iter().filter(|b| a.sign == b.sign && a.overlaps(b)).for_each(|b| self.join(a, b));
+                right.runs.iter().filter(|b| a.sign == b.sign && overlap(a, b)).for_each(|b| self.join(a, b));
             }
         }
     }
@@ -205,14 +211,14 @@ impl<'a> Sweep<'a> {
             };
             let det = |t: f64| self.robot.det(self.mode, psi, d, beta(t));
             let (first, zeros) = zeros(&det, self.samples);
-            let ends = std::iter::once(lo).chain(zeros.into_iter().map(beta)).chain([hi]);
-            let ends: Vec<f64> = ends.collect();
+            let ends: Vec<f64> = std::iter::once(0.0).chain(zeros).chain([1.0]).collect();
             let mut sign = first;
             for pair in ends.windows(2) {
                 let id = self.parent.len();
                 self.parent.push(id);
                 self.signs.push(sign);
-                runs.push(Run { arc, sign, lo: pair[0], hi: pair[1], id });
+                let [t, turned] = [pair, &[beta(pair[0]), beta(pair[1])]].map(|p| (p[0], p[1]));
+                runs.push(Run { arc, sign, t, beta: turned, id });
                 sign = -sign;
             }
         }
