@@ -35,7 +35,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let (certified, undecided) = areas(&paving);
     let report = json!({
-        "seconds": seconds, "boxes": paving.boxes, "depth": paving.depth(), "window": window.ranges,
+        "seconds": seconds, "boxes": paving.boxes, "depth": paving.depth, "window": window.ranges,
         "certified": certified, "undecided": undecided, "samples": samples(&robot, mode, &window.ranges)?,
     });
     println!("{report}");

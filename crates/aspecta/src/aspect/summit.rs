@@ -354,7 +354,7 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
             .iter()
             .fold(f64::INFINITY, |least, g| least.min(g.value.lo));
         let det = self.determinant(&part, mode).growth(&frame, mode, scale, lane).value;
-        if !(det.magnitude() < least) {
+        if det.magnitude() >= least {
             return 0;
         }
         let [plus, minus] = no_local_maximum::<SPACE, N, M>(robot, self.paving, node, mode);
