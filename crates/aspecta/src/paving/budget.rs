@@ -20,7 +20,7 @@ pub struct Budget {
 
 /// Greatest depth a paving can have.
 pub const MAX_DEPTH: u32 = 20;
-/// Greatest number of boxes a paving holds (28 bytes each, so about 1 GiB); larger budgets are cut to it.
+/// Greatest number of boxes a paving holds (32 bytes each, so about 1 GiB); larger budgets are cut to it.
 pub const MAX_BOXES: u64 = 40_000_000;
 
 /// The share of a time budget after which the paving ends; counting its components takes about as long again.
@@ -46,9 +46,9 @@ impl Budget {
     }
 
     /// The depth to which everything undecided is split in the end, for measures and pictures: what is asked for, or 16 on a line,
-    /// 10 in the plane and 7 in space.
+    /// 11 in the plane and 7 in space.
     pub fn even(&self, window: &Window) -> u32 {
-        self.finest(window).unwrap_or([16, 10, 7][window.axes().len().clamp(1, 3) - 1])
+        self.finest(window).unwrap_or([16, 11, 7][window.axes().len().clamp(1, 3) - 1])
     }
 
     /// The depth of an even paving: that of [`Budget::finest`], or 16 on a line, 11 in the plane and 8 in space.

@@ -312,7 +312,8 @@ fn a_cancelled_check_proves_nothing() {
 fn experiment_full() {
     let robot = catalogue::find("3-rrr").unwrap();
     let t = std::time::Instant::now();
-    let certificate = certified(&robot, &[], &Budget { boxes: Some(250_000), depth: Some(7), ..Budget::default() });
+    let certificate =
+        certified(&robot, &[], &Budget { boxes: Some(250_000), depth: Some(7), ..Budget::default() });
     println!("searched {:?}", t.elapsed());
     let t = std::time::Instant::now();
     let verdict = checked(&certificate);
