@@ -344,6 +344,7 @@ fn slices_do_not_depend_on_place_direction_unit_and_frame() {
         analyze(robot, &options, &Control { cancelled: &NEVER, progress: &|_| () }).unwrap()
     };
     let area = |a: &Analysis| a.classes.iter().map(|c| c.measure).sum::<f64>();
+    let most = |a: &Analysis| a.classes.iter().map(|c| c.measure + c.undecided).sum::<f64>();
     let reference = analyzed(&robot("3-rrr"), &[(2, 0.0)]);
     for (turn, shift, scale, origin) in [
         (0.0, [17.3, -4.1], 1.0, [0.0, 0.0]),
@@ -359,8 +360,9 @@ fn slices_do_not_depend_on_place_direction_unit_and_frame() {
                 "{turn} {shift:?} {scale} {origin:?}"
             );
         }
-        let area = area(&slice) / (scale * scale * area(&reference));
-        assert!((area - 1.0).abs() < 0.01, "{turn} {shift:?} {scale} {origin:?}: {area}");
+        let unit = scale * scale;
+        assert!(area(&slice) <= 1.0001 * unit * most(&reference), "{turn} {shift:?} {scale} {origin:?}");
+        assert!(unit * area(&reference) <= 1.0001 * most(&slice), "{turn} {shift:?} {scale} {origin:?}");
     }
 }
 
