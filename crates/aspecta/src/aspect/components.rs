@@ -31,7 +31,7 @@ impl UnionFind {
 /// A connected set of inside boxes.
 #[derive(Clone, Debug)]
 pub(super) struct Piece {
-    /// Certified measure, in the coordinates of each sheet.
+    /// Certified measure, in pose coordinates.
     pub measure: f64,
     /// Its largest box in pose coordinates, the first of its size, or a box of another sheet if it has none.
     pub largest: Leaf,
@@ -136,7 +136,6 @@ impl Components {
                 self.pieces.push(Piece { measure: 0.0, largest: (s, at), component });
             }
             let piece = &mut self.pieces[piece_at_root[root] as usize];
-            piece.measure += measure;
             if piece.largest.0 == s {
                 piece.largest.1 = sheets[s].larger(piece.largest.1, at);
             }
@@ -144,6 +143,10 @@ impl Components {
         for i in (0..self.boxes.len()).filter(|&i| is_inside(self.boxes[i])) {
             let piece = piece_at_root[inner.root(i as u32) as usize];
             self.piece_of[i] = (piece != u32::MAX).then_some(piece);
+            let (s, at) = self.boxes[i];
+            if let (0, Some(piece)) = (s, self.piece_of[i]) {
+                self.pieces[piece as usize].measure += sheets[0].measure(sheets[0].depth_of(at));
+            }
         }
     }
 
