@@ -58,9 +58,9 @@ fn the_five_bar() {
     let sections = ["robot", "modes", "counts", "maps", "earlier", "certified", "run"];
     let page = checked(&analysis, &dir, &sections, 3_000_000);
     // Table 2: six classes of one aspect, two of two.
-    assert_eq!(page.matches("<strong>at least 1</strong>").count(), 6);
-    assert_eq!(page.matches("<strong>at least 2</strong>").count(), 2);
-    assert!(page.contains("at least 10 generalized aspects"));
+    assert_eq!(page.matches("<strong>exactly 1</strong>").count(), 6);
+    assert_eq!(page.matches("<strong>exactly 2</strong>").count(), 2);
+    assert!(page.contains("exactly 10 generalized aspects"));
     assert!(!page.contains("id=\"volume\""));
 }
 

@@ -287,7 +287,7 @@ fn analyzed(robot: &Robot) -> Option<Analysis> {
 fn analyzed_slice(robot: &Robot, fix: Vec<(usize, f64)>) -> Option<Analysis> {
     let depth = [10, 7, 4][robot.dof() - fix.len() - 1];
     // The windows of some random robots are empty.
-    analyze(robot, &Options { budget: to_depth(depth), fix }, &control()).ok()
+    analyze(robot, &Options { budget: to_depth(depth), fix, ..Options::default() }, &control()).ok()
 }
 
 fn classes(paving: &Paving) -> impl Iterator<Item = (usize, WorkingMode, DetSign)> {

@@ -12,7 +12,7 @@ static NEVER: AtomicBool = AtomicBool::new(false);
 
 fn attempt(robot: &Robot, depth: u32, fix: &[(usize, f64)]) -> Result<Analysis, AnalysisError> {
     let budget = Budget { depth: Some(depth), ..Budget::default() };
-    let options = Options { budget, fix: fix.to_vec() };
+    let options = Options { budget, fix: fix.to_vec(), ..Options::default() };
     analyze(robot, &options, &Control { cancelled: &NEVER, progress: &|_| () })
 }
 
@@ -338,17 +338,27 @@ fn moved(turn: f64, shift: [f64; 2], scale: f64, origin: [f64; 2]) -> Robot {
 /// which point of the platform is followed.
 #[test]
 fn slices_do_not_depend_on_place_direction_unit_and_frame() {
-    let counts = |a: &Analysis| a.classes.iter().map(|c| c.low).collect::<Vec<_>>();
+    let counts = |a: &Analysis| a.classes.iter().map(|c| (c.low, c.high)).collect::<Vec<_>>();
+    let analyzed = |robot: &Robot, fix: &[(usize, f64)]| {
+        let options = Options { fix: fix.to_vec(), ..Options::default() };
+        analyze(robot, &options, &Control { cancelled: &NEVER, progress: &|_| () }).unwrap()
+    };
     let area = |a: &Analysis| a.classes.iter().map(|c| c.measure).sum::<f64>();
-    let reference = analyzed(&robot("3-rrr"), 10, &[(2, 0.0)]);
+    let reference = analyzed(&robot("3-rrr"), &[(2, 0.0)]);
     for (turn, shift, scale, origin) in [
         (0.0, [17.3, -4.1], 1.0, [0.0, 0.0]),
         (0.3, [1.0, 2.0], 1.0, [0.0, 0.0]),
         (-2.5, [0.0, 0.0], 1e-3, [0.0, 0.0]),
         (1.0, [0.0, 0.0], 1e3, [3.0, -2.0]),
     ] {
-        let slice = analyzed(&moved(turn, shift, scale, origin), 10, &[(2, turn)]);
-        assert_eq!(counts(&slice), counts(&reference), "{turn} {shift:?} {scale} {origin:?}");
+        let slice = analyzed(&moved(turn, shift, scale, origin), &[(2, turn)]);
+        // Bounds may stay apart for one grid of boxes and meet for another; they never contradict each other.
+        for ((low, high), (exact, _)) in counts(&slice).into_iter().zip(counts(&reference)) {
+            assert!(
+                low <= exact && high.is_none_or(|high| exact <= high),
+                "{turn} {shift:?} {scale} {origin:?}"
+            );
+        }
         let area = area(&slice) / (scale * scale * area(&reference));
         assert!((area - 1.0).abs() < 0.01, "{turn} {shift:?} {scale} {origin:?}: {area}");
     }
@@ -404,7 +414,7 @@ fn a_slice_says_what_was_held() {
 #[test]
 fn budgets_know_the_coordinates_that_vary() {
     let run = |fix: &[(usize, f64)], budget: Budget| {
-        let options = Options { budget, fix: fix.to_vec() };
+        let options = Options { budget, fix: fix.to_vec(), ..Options::default() };
         let control = Control { cancelled: &NEVER, progress: &|_| () };
         analyze(&robot("3-rrr"), &options, &control).unwrap().run
     };

@@ -6,11 +6,11 @@ use crate::input;
 use crate::output::{self, note};
 use aspecta::aspect::{Analysis, Options, analyze};
 use aspecta::paving::{Budget, Control, Progress, Stop};
-use aspecta_cli::report;
+use aspecta_cli::{file, report};
 use clap::Args;
 use std::fs;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Arguments of `analyze`.
 #[derive(Args)]
@@ -23,6 +23,9 @@ pub struct Analyze {
     /// Write report.html and its figures into this directory
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Write the proof of the count into this file, for `aspecta verify`
+    #[arg(long, value_name = "FILE")]
+    certificate: Option<PathBuf>,
     /// When to stop, whatever comes first: 30s | 5min | 2e6boxes | depth=9 | res=0.1, separated by commas
     /// [default: depth 11 for 2 free coordinates, 8 for 3, 16 for 1; never more than 4e7 boxes]. Drawing --out comes on top
     #[arg(long, value_parser = budget::parse, allow_hyphen_values = true)]
@@ -34,6 +37,17 @@ pub struct Analyze {
     /// Number of threads [default: all cores]; the result does not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
+}
+
+/// The directory and the name of a file that is to be written: the directory must be there before the long work begins.
+fn place(path: &Path) -> Result<(PathBuf, String), Failure> {
+    let directory = path.parent().filter(|d| !d.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let name = path.file_name().and_then(|name| name.to_str());
+    let Some(name) = name.filter(|_| !path.is_dir()) else {
+        return Err(Failure::Input(format!("--certificate {}: give the name of a file", path.display())));
+    };
+    fs::read_dir(directory).map_err(Failure::in_directory(directory))?;
+    Ok((directory.to_owned(), name.to_owned()))
 }
 
 impl Analyze {
@@ -48,6 +62,7 @@ impl Analyze {
                 .and_then(|()| fs::remove_file(&probe))
                 .map_err(Failure::in_directory(directory))?;
         }
+        let proof = self.certificate.as_deref().map(place).transpose()?;
         watch::threads(self.threads)?;
         watch::interrupts()?;
         let bar = watch::progress_bar();
@@ -56,10 +71,15 @@ impl Analyze {
             bar.set_position(p.done);
             bar.set_message(p.stage);
         };
-        let options = Options { budget: self.budget.unwrap_or_default(), fix };
+        let options = Options { budget: self.budget.unwrap_or_default(), fix, certificate: proof.is_some() };
         let analysis = analyze(&robot, &options, &Control { cancelled: &watch::CANCELLED, progress: &show })?;
         bar.finish_and_clear();
         self.print(out, &analysis)?;
+        if let (Some((directory, name)), Some(certificate)) = (&proof, &analysis.certificate) {
+            let text = certificate.to_json().map_err(|e| Failure::Input(format!("certificate: {e}")))?;
+            let path = file::put(directory, name, &text).map_err(Failure::in_directory(directory))?;
+            note(&format!("certificate: {}", path.display()));
+        }
         if analysis.run.stop == Stop::Cancelled {
             note("cancelled: this is the result so far");
         }

@@ -33,5 +33,5 @@ pub fn analysis(robot: &Robot, depth: u32) -> Analysis {
 pub fn slice(robot: &Robot, depth: u32, fix: &[(usize, f64)]) -> Analysis {
     let budget = Budget { depth: Some(depth), ..Budget::default() };
     let control = Control { cancelled: &AtomicBool::new(false), progress: &|_| {} };
-    analyze(robot, &Options { budget, fix: fix.to_vec() }, &control).unwrap()
+    analyze(robot, &Options { budget, fix: fix.to_vec(), ..Options::default() }, &control).unwrap()
 }

@@ -10,6 +10,7 @@ use super::measure::{Held, Measure};
 use super::project::{q_bounds, w_bounds};
 use super::result::*;
 use super::search::Search;
+use crate::certificate::{Certificate, Claim, Join, Seam};
 use crate::kinematics::WorkingMode;
 use crate::paving::{Budget, Control, Mark, Node, Paving, Progress};
 use crate::robot::{Actuator, Leg, Robot, SliceError};
@@ -24,6 +25,8 @@ pub struct Options {
     pub budget: Budget,
     /// Coordinates to hold (index, value), as in [`Robot::slice`]: what is analysed are the poses that have these values.
     pub fix: Vec<(usize, f64)>,
+    /// Whether to keep the proof: [`Analysis::certificate`].
+    pub certificate: bool,
 }
 
 /// Why a robot cannot be analysed.
@@ -51,8 +54,11 @@ pub enum AnalysisError {
 ///   boxes, so it lies in one component of G⁺; distinct such components hold distinct aspects.
 /// - **pieces** of an aspect (certified): inside boxes joined by touching, or by certified ascent paths.
 ///
-/// No upper bound is proved while undecided boxes are left (an aspect could hide in them): `high` is then
-/// `None`. If nothing is left undecided, G⁻ = G⁺ and the count is exact.
+/// - **high** (certified): the number of components of G⁻ that may hold the summit of an aspect, provided that no undecided box may
+///   (`docs/theory.md`, 4 and 5); else `None`.
+///
+/// Boxes are refined where they keep the bounds apart, until they meet or the budget ends; [`Analysis::doubts`] then
+/// says where they are apart and why.
 ///
 /// In a slice ([`Options::fix`]) S_{s,σ} is cut by the slice; det A remains that of the whole robot. Each aspect of the slice
 /// lies in one aspect of the robot; several may lie in the same.
@@ -87,6 +93,7 @@ pub fn analyze(robot: &Robot, options: &Options, control: &Control<'_>) -> Resul
         modes: modes.iter().enumerate().map(|(m, mode)| mode_report(robot, paving, m, *mode)).collect(),
         classes,
         doubts,
+        certificate: options.certificate.then(|| certificate(&atlas, &counted)),
         parallel_aspects: parallel,
         serial_aspects: serial,
         run: Run {
@@ -161,6 +168,20 @@ fn aspect(atlas: &Atlas<'_>, class: Class, components: &Components, group: &Grou
         w_bounds: w_bounds(paving, &all),
         q_bounds: q_bounds(atlas.robot, paving, class.mode, &inner),
     }
+}
+
+/// All that the bounds rest on.
+fn certificate(atlas: &Atlas<'_>, counted: &[(Class, Counted)]) -> Certificate {
+    let claims = counted.iter().map(|(_, c)| Claim { low: c.found.len(), high: c.high() }).collect();
+    let index = |class: &Class| class.bit.trailing_zeros() as usize;
+    let joins = counted
+        .iter()
+        .flat_map(|(class, c)| c.joins.iter().map(|path| Join { class: index(class), path: path.clone() }));
+    let seams = counted.iter().flat_map(|(class, _)| {
+        let points = atlas.seam_points(class.bit);
+        points.into_iter().map(|(sheet, point)| Seam { class: index(class), sheet, point })
+    });
+    Certificate::new(atlas.robot, &atlas.scale, &atlas.sheets, joins.collect(), seams.collect(), claims)
 }
 
 /// Numbers the aspects of all classes from 1.

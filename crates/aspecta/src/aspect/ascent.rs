@@ -27,13 +27,6 @@ pub(super) struct Class {
     pub bit: ClassSet,
 }
 
-/// A polyline proved to lie in S_{s,σ}, between boxes inside it.
-#[derive(Clone, Debug)]
-pub(super) struct Join {
-    pub class: ClassSet,
-    pub path: Vec<Vec<f64>>,
-}
-
 /// Which pieces are proved to be one: sets of piece numbers, and the paths that prove it. Climbs start from the pieces that
 /// are `worth` it, except the largest such piece of each component, which waits for the others.
 pub(super) fn merge(
@@ -43,7 +36,7 @@ pub(super) fn merge(
     components: &Components,
     worth: &[bool],
     control: &Control<'_>,
-) -> (UnionFind, Vec<Join>) {
+) -> (UnionFind, Vec<Path>) {
     let pieces = &components.pieces;
     let mut largest = std::collections::HashMap::new();
     for (k, piece) in pieces.iter().enumerate().filter(|(k, _)| worth[*k]) {
@@ -71,17 +64,20 @@ pub(super) fn merge(
             sets.union(k as u32, other);
         }
         if !climb.met.is_empty() {
-            joins.push(Join { class: class.bit, path: climb.path });
+            joins.push(climb.path);
         }
     }
     (sets, joins)
 }
 
+/// A polyline of poses.
+pub(super) type Path = Vec<Vec<f64>>;
+
 /// A climb: the pieces met, and the path up to the last of them.
 #[derive(Default)]
 struct Climb {
     met: Vec<u32>,
-    path: Vec<Vec<f64>>,
+    path: Path,
 }
 
 /// The climb from piece `from`, which ends at a maximum of U, at piece `goal`, or where no step can be proved any more.

@@ -4,8 +4,8 @@ use super::scale::Scale;
 use super::summit::summitless;
 use crate::kinematics::WorkingMode;
 use crate::kinematics::chart::{Chart, Fold, folds};
-use crate::num::{Interval, LANES, Scalar};
 use crate::kinematics::for_platform;
+use crate::num::{Interval, LANES, Scalar};
 use crate::paving::{Budget, ClassSet, Control, Mark, Node, Paving, Progress, for_paving};
 use crate::robot::{Robot, Window};
 use rayon::prelude::*;
@@ -21,6 +21,14 @@ pub(super) struct Limits<'a> {
     pub boxes: u64,
     /// Whether the time is up.
     pub late: &'a (dyn Fn() -> bool + Sync),
+}
+
+/// What [`Atlas::even_out`] did.
+pub(super) struct Even {
+    /// Whether anything was split.
+    pub changed: bool,
+    /// Whether the depth was reached everywhere.
+    pub reached: bool,
 }
 
 impl Limits<'_> {
@@ -69,7 +77,8 @@ impl<'a> Atlas<'a> {
 
     /// All leaves in which something is undecided.
     pub(super) fn undecided_leaves(&self) -> Vec<Leaf> {
-        let all = self.sheets.iter().enumerate().flat_map(|(s, p)| (0..p.nodes.len() as u32).map(move |n| (s, n)));
+        let all =
+            self.sheets.iter().enumerate().flat_map(|(s, p)| (0..p.nodes.len() as u32).map(move |n| (s, n)));
         all.filter(|&leaf| self.open(leaf) != 0).collect()
     }
 
@@ -83,6 +92,29 @@ impl<'a> Atlas<'a> {
         }
     }
 
+    /// Points, in the coordinates of a fold's sheet, at which a box there that is inside a class meets one of sheet 0 that is.
+    pub(super) fn seam_points(&self, class: ClassSet) -> Vec<(usize, Vec<f64>)> {
+        let mut points = Vec::new();
+        let sight = |node: &Node| node.of_classes(class);
+        let inside = |(s, at): Leaf| sight(&self.sheets[s].nodes[at as usize]) == Mark::Inside;
+        seams(self.robot, &self.sheets, &sight, &mut |a, b, surely| {
+            if surely && inside(a) {
+                points.push((b.0, self.sheets[b.0].centre(b.1)));
+            }
+        });
+        points
+    }
+
+    /// The children of boxes in which one of some classes is undecided.
+    pub(super) fn undecided_children(&self, boxes: &[Leaf], classes: ClassSet) -> Vec<Leaf> {
+        let children = |&(s, at): &Leaf| self.sheets[s].children(at).map(move |child| (s, child));
+        let undecided = |&(s, at): &Leaf| {
+            let node = &self.sheets[s].nodes[at as usize];
+            node.undecided & classes != 0 && node.first_child == 0
+        };
+        boxes.iter().flat_map(children).filter(undecided).collect()
+    }
+
     /// Boxes classified so far.
     pub(super) fn boxes(&self) -> u64 {
         self.sheets.iter().map(|paving| paving.boxes).sum()
@@ -94,28 +126,55 @@ impl<'a> Atlas<'a> {
 
     /// Splits and searches boxes until no aspect can hide in any, as far as `limits` allow; `fresh` are the leaves not searched yet.
     /// Returns whether the limits allowed all of it.
-    pub(super) fn uncover(&mut self, mut fresh: Vec<Leaf>, limits: &Limits<'_>, control: &Control<'_>) -> bool {
+    pub(super) fn uncover(
+        &mut self,
+        mut fresh: Vec<Leaf>,
+        limits: &Limits<'_>,
+        control: &Control<'_>,
+    ) -> bool {
         let mut complete = true;
         loop {
-            let open = if self.is_worth_searching(&fresh) { self.survey(&fresh) } else { fresh };
-            let (split, deepest): (Vec<Leaf>, Vec<Leaf>) =
+            let worth = self.is_worth_searching(&fresh);
+            let open = if worth { self.survey(&fresh, limits, control) } else { fresh };
+            let (split, mut deepest): (Vec<Leaf>, Vec<Leaf>) =
                 open.into_iter().partition(|&leaf| self.depth_of(leaf) < limits.depth);
-            complete &= deepest.is_empty();
-            if !deepest.is_empty() {
-                // Coarse boxes not searched yet may be settled nevertheless.
-                self.survey(&deepest);
+            if !worth {
+                // What cannot be split is searched all the same.
+                deepest = self.survey(&deepest, limits, control);
             }
+            complete &= deepest.is_empty();
             if split.is_empty() {
                 return complete;
             }
-            let affordable = limits.affordable(self);
-            if split.len() > affordable || limits.is_over(control) {
-                self.survey(&split);
+            if split.len() > limits.affordable(self) || limits.is_over(control) {
                 return false;
             }
-            let done = self.boxes();
-            (control.progress)(Progress { stage: "looking for hidden aspects", done, total: done + split.len() as u64 });
             fresh = self.split(&split, control);
+        }
+    }
+
+    /// Splits every undecided box of sheet 0 down to `depth`.
+    pub(super) fn even_out(&mut self, depth: u32, limits: &Limits<'_>, control: &Control<'_>) -> Even {
+        let coarse = |paving: &Paving, at: u32| {
+            let node = &paving.nodes[at as usize];
+            node.first_child == 0 && node.undecided != 0 && u32::from(node.depth) < depth
+        };
+        let mut even = Even { changed: false, reached: true };
+        let mut first = 0;
+        loop {
+            let all = self.sheets[0].nodes.len() as u32;
+            let split: Vec<Leaf> =
+                (first..all).filter(|&at| coarse(&self.sheets[0], at)).map(|at| (0, at)).collect();
+            if split.is_empty() {
+                return even;
+            }
+            if split.len() > limits.affordable(self) || limits.is_over(control) {
+                return Even { reached: false, ..even };
+            }
+            let done = self.boxes();
+            (control.progress)(Progress { stage: "paving evenly", done, total: done + split.len() as u64 });
+            self.split(&split, control);
+            (first, even.changed) = (all, true);
         }
     }
 
@@ -133,22 +192,36 @@ impl<'a> Atlas<'a> {
             .step_by(leaves.len() / SAMPLE)
             .map(|&leaf| (leaf.1, self.open(leaf)))
             .collect();
-        let settled = sample.iter().zip(self.summitless(sheet, &sample)).filter(|(s, proved)| s.1 & !proved == 0);
+        let settled =
+            sample.iter().zip(self.summitless(sheet, &sample)).filter(|(s, proved)| s.1 & !proved == 0);
         10 * settled.count() > 3 * sample.len()
     }
 
-    /// Looks for summits in leaves, and returns those in which some might be.
-    pub(super) fn survey(&mut self, leaves: &[Leaf]) -> Vec<Leaf> {
-        for sheet in 0..self.sheets.len() {
-            let asked: Vec<(u32, ClassSet)> = leaves
-                .iter()
-                .filter(|leaf| leaf.0 == sheet)
-                .map(|&leaf| (leaf.1, self.open(leaf)))
-                .filter(|asked| asked.1 != 0)
-                .collect();
-            let proved = self.summitless(sheet, &asked);
-            for (&(node, _), proved) in asked.iter().zip(proved) {
-                self.sheets[sheet].nodes[node as usize].summitless |= proved;
+    /// Looks for summits in leaves, as long as the limits allow, and returns those in which some might be.
+    pub(super) fn survey(
+        &mut self,
+        leaves: &[Leaf],
+        limits: &Limits<'_>,
+        control: &Control<'_>,
+    ) -> Vec<Leaf> {
+        const SOME: usize = 1 << 15;
+        for (done, some) in leaves.chunks(SOME).enumerate() {
+            if limits.is_over(control) {
+                break;
+            }
+            let (done, total) = ((done * SOME) as u64, leaves.len() as u64);
+            (control.progress)(Progress { stage: "looking for hidden aspects", done, total });
+            for sheet in 0..self.sheets.len() {
+                let asked: Vec<(u32, ClassSet)> = some
+                    .iter()
+                    .filter(|leaf| leaf.0 == sheet)
+                    .map(|&leaf| (leaf.1, self.open(leaf)))
+                    .filter(|asked| asked.1 != 0)
+                    .collect();
+                let proved = self.summitless(sheet, &asked);
+                for (&(node, _), proved) in asked.iter().zip(proved) {
+                    self.sheets[sheet].nodes[node as usize].summitless |= proved;
+                }
             }
         }
         leaves.iter().copied().filter(|&leaf| self.open(leaf) != 0).collect()
@@ -195,7 +268,9 @@ pub(super) fn seams(
         sheet.boxes_of(sight, &mut |at| boxes.push(at));
         for at in boxes {
             for face in outer_faces(robot, sheet, at) {
-                sheets[0].meeting(sight, &image(robot, sheet, &face), &mut |other| join((0, other), (s, at), false));
+                sheets[0].meeting(sight, &image(robot, sheet, &face), &mut |other| {
+                    join((0, other), (s, at), false)
+                });
             }
             if sight(&sheet.nodes[at as usize]) == Mark::Inside {
                 let centre = sheet.centre(at).into_iter().map(Interval::point).collect::<Vec<_>>();

@@ -109,8 +109,13 @@ impl Components {
         seams(robot, sheets, &kept, &mut join);
         let mut root = |i: u32| (!is_covered(node(boxes[i as usize]))).then(|| all.root(i));
         let component_of = (0..boxes.len() as u32).map(&mut root).collect();
-        let mut components =
-            Self { piece_of: vec![None; boxes.len()], component_of, pieces: Vec::new(), undecided: 0.0, boxes };
+        let mut components = Self {
+            piece_of: vec![None; boxes.len()],
+            component_of,
+            pieces: Vec::new(),
+            undecided: 0.0,
+            boxes,
+        };
         components.gather(sheets, &is_inside, &mut inner);
         components
     }

@@ -1,6 +1,6 @@
 //! The count of one class: bounds from the two graphs, and where they are kept apart.
 
-use super::ascent::{Class, Join, merge};
+use super::ascent::{Class, Path, merge};
 use super::atlas::{Atlas, Leaf};
 use super::components::{Components, UnionFind};
 use crate::paving::{ClassSet, Control, Mark, Node};
@@ -13,12 +13,21 @@ pub(super) struct Counted {
     pub found: Vec<Group>,
     /// Whether no aspect can hide in an undecided box: then there are at most as many aspects as summits, all told.
     pub closed: bool,
-    /// The paths that joined pieces.
-    pub joins: Vec<Join>,
+    /// The paths, proved to lie in the class, that joined pieces.
+    pub joins: Vec<Path>,
     /// Boxes found to have no summit, for the atlas to remember.
     pub summitless: Vec<Leaf>,
-    /// Undecided boxes half-way between pieces that were not joined: finer ones would part or join them.
-    pub between: Vec<Leaf>,
+    /// What lies between pieces that were not joined.
+    pub between: Between,
+}
+
+/// Undecided boxes between unjoined pieces of G⁻.
+#[derive(Default)]
+pub(super) struct Between {
+    /// Those half-way, where the floods run into each other: finer ones would part the pieces.
+    pub front: Vec<Leaf>,
+    /// Those on the shortest ways from one to the other: finer ones would join them.
+    pub ways: Vec<Leaf>,
 }
 
 /// A component of G⁺ that holds an inside box.
@@ -68,7 +77,7 @@ pub(super) fn count(atlas: &Atlas<'_>, class: Class, control: &Control<'_>) -> C
         let label = |piece: u32| fertile[piece as usize].then_some(piece);
         between(atlas, &sight, &found, &label, &mut joined)
     } else {
-        Vec::new()
+        Between::default()
     };
     Counted { components, found, closed, joins, summitless, between }
 }
@@ -124,15 +133,14 @@ fn fertile(
         .collect()
 }
 
-/// The undecided boxes at which the neighbourhoods of unjoined pieces meet: G⁺ is flooded from all pieces of a component at
-/// once, and the boxes are returned in which two floods run into each other, and those of the shortest way between them.
+/// The undecided boxes between unjoined pieces. G⁺ is flooded from all of them at once.
 fn between(
     atlas: &Atlas<'_>,
     sight: &impl Fn(&Node) -> Mark,
     found: &[Group],
     label: &impl Fn(u32) -> Option<u32>,
     joined: &mut UnionFind,
-) -> Vec<Leaf> {
+) -> Between {
     let torn: BTreeSet<u32> = found.iter().filter(|g| g.summits > 1).map(|g| g.component).collect();
     let mut links: Vec<(u32, u32)> = Vec::new();
     let components =
@@ -189,15 +197,20 @@ fn between(
         }
     }
     // The shortest way from one to the other: if they are one, it leads there.
+    let mut ways = BTreeSet::new();
     for (_, a, b) in shortest.into_values() {
         for mut v in [a, b] {
+            ways.insert(v);
             while flood[&v].from != v {
-                met.insert(v);
                 v = flood[&v].from;
+                ways.insert(v);
             }
         }
     }
-    met.into_iter().filter(|&i| piece(i).is_none()).map(|i| components.boxes[i as usize]).collect()
+    let undecided = |boxes: BTreeSet<u32>| {
+        boxes.into_iter().filter(|&i| piece(i).is_none()).map(|i| components.boxes[i as usize]).collect()
+    };
+    Between { front: undecided(met), ways: undecided(ways) }
 }
 
 /// How a box was reached by a flood.

@@ -4,8 +4,8 @@ use super::ascent::Class;
 use super::atlas::{Atlas, Leaf};
 use super::count::Counted;
 use super::result::{DetSign, Doubt, DoubtKind};
-use crate::kinematics::for_platform;
 use crate::kinematics::chart::Chart;
+use crate::kinematics::for_platform;
 use crate::kinematics::limits::margin;
 use crate::kinematics::modal::ModalRows;
 use crate::num::{Interval, Scalar};
@@ -17,7 +17,7 @@ pub(super) fn doubts(atlas: &Atlas<'_>, class: Class, counted: &Counted) -> Vec<
     }
     let hidden: Vec<Leaf> =
         counted.components.boxes.iter().copied().filter(|&leaf| atlas.open(leaf) & class.bit != 0).collect();
-    [(DoubtKind::Hidden, &hidden), (DoubtKind::Unjoined, &counted.between)]
+    [(DoubtKind::Hidden, &hidden), (DoubtKind::Unjoined, &counted.between.front)]
         .into_iter()
         .filter_map(|(kind, boxes)| doubt(atlas, class, kind, boxes))
         .collect()

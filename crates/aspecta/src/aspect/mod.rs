@@ -11,8 +11,6 @@
 mod analyze;
 mod ascent;
 mod atlas;
-#[cfg(test)]
-pub(crate) mod certified;
 mod components;
 mod count;
 mod doubt;
@@ -27,8 +25,8 @@ mod summit;
 
 pub use analyze::{AnalysisError, Options, analyze};
 pub use measure::{Held, Measure, Unit};
-pub use scale::Scale;
 pub use result::{
-    Analysis, Aspect, AspectClass, Cell, Count, DetSign, Doubt, DoubtKind, EarlierAspects, EarlierDomain, FORMAT_VERSION,
-    LegReport, ModeReport, Place, Reachable, Run, Sample,
+    Analysis, Aspect, AspectClass, Cell, Count, DetSign, Doubt, DoubtKind, EarlierAspects, EarlierDomain,
+    FORMAT_VERSION, LegReport, ModeReport, Place, Reachable, Run, Sample,
 };
+pub use scale::Scale;

@@ -1,6 +1,7 @@
 //! What an analysis returns: plain values that know the robot they came from.
 
 use super::measure::{Held, Measure};
+use crate::certificate::Certificate;
 use crate::kinematics::WorkingMode;
 use crate::paving::{BoxOf, Paving, Stop};
 use crate::robot::{Robot, Window};
@@ -41,7 +42,10 @@ pub struct Analysis {
     pub serial_aspects: Vec<EarlierAspects>,
     /// The run itself.
     pub run: Run,
-    /// The paving behind it.
+    /// The proof, if it was asked for ([`super::Options::certificate`]).
+    #[serde(skip)]
+    pub certificate: Option<Certificate>,
+    /// The paving behind it, in pose coordinates.
     #[serde(skip)]
     pub paving: Paving,
     /// Per class, the boxes in which it ends and is not outside, in the order of node indices, with the
@@ -75,10 +79,13 @@ impl Analysis {
     /// boundary of two cells may get the answer of either; one off the slice is outside.
     pub fn locate(&self, class: usize, pose: &[f64]) -> Place {
         let pose: Vec<f64> = pose.iter().enumerate().map(|(k, &x)| self.window.turned_in(k, x)).collect();
-        let found = self.paving.find(&|node| node.of_classes(1 << class), &pose).and_then(|(node, _)| {
-            let labels = &self.labels[class];
-            labels.binary_search_by_key(&node, |l| l.0).ok().map(|k| labels[k].1)
-        });
+        // A class is labelled as it was when its count was settled; boxes may have been split since, for the others.
+        let labels = &self.labels[class];
+        let label = |node: u32| labels.binary_search_by_key(&node, |l| l.0).ok().map(|k| labels[k].1);
+        let found = self
+            .paving
+            .descend_to(&pose, &mut |node| label(node).is_some())
+            .and_then(|(node, _)| label(node));
         match found {
             None => Place::Outside,
             Some(0) => Place::Undecided,

@@ -44,7 +44,8 @@ pub(super) fn no_local_maximum<const D: usize, const N: usize, const M: usize>(
     }
     let eigen = DMatrix::from_column_slice(M, M, middle.as_slice()).symmetric_eigen();
     [1.0, -1.0].map(|sign| {
-        let best = (0..M).max_by(|&a, &b| (sign * eigen.eigenvalues[a]).total_cmp(&(sign * eigen.eigenvalues[b])));
+        let best =
+            (0..M).max_by(|&a, &b| (sign * eigen.eigenvalues[a]).total_cmp(&(sign * eigen.eigenvalues[b])));
         best.is_some_and(|k| {
             let v = eigen.eigenvectors.column(k);
             let mut sum = Interval::point(0.0);

@@ -19,7 +19,8 @@ pub(super) struct Search<'a> {
 
 impl<'a> Search<'a> {
     /// Paves evenly to a moderate depth; then splits the boxes in which an aspect could hide until none could; then, class by
-    /// class, those that lie between pieces not proved to be one, until they are joined or parted.
+    /// class, those that lie between pieces not proved to be one, until they are joined or parted. At last everything undecided is
+    /// split to the resolution asked for.
     pub(super) fn run(
         robot: &'a Robot,
         window: &Window,
@@ -34,40 +35,82 @@ impl<'a> Search<'a> {
             boxes: budget.boxes.unwrap_or(MAX_BOXES).min(MAX_BOXES),
             late: &late,
         };
-        let mut atlas = Atlas::new(robot, window, modes, &budget.even(window), control);
+        let mut atlas = Atlas::new(robot, window, modes, &budget.start(window), control);
         let classes = modes.iter().enumerate().flat_map(|(m, &mode)| {
             [(1, 1 << (2 * m)), (-1, 2 << (2 * m))].map(|(sign, bit)| Class { mode, sign, bit })
         });
         let mut complete = atlas.sheets[0].stop == Stop::Resolution;
         let leaves = atlas.undecided_leaves();
         complete &= atlas.uncover(leaves, &limits, control);
-        let mut counted: Vec<(Class, Counted)> =
-            classes.collect::<Vec<_>>().into_par_iter().map(|class| (class, count(&atlas, class, control))).collect();
+        let mut counted: Vec<(Class, Counted)> = classes
+            .collect::<Vec<_>>()
+            .into_par_iter()
+            .map(|class| (class, count(&atlas, class, control)))
+            .collect();
         loop {
-            for leaf in counted.iter().flat_map(|(class, c)| c.summitless.iter().map(|&leaf| (leaf, class.bit))) {
+            for leaf in
+                counted.iter().flat_map(|(class, c)| c.summitless.iter().map(|&leaf| (leaf, class.bit)))
+            {
                 atlas.remember(leaf.0, leaf.1);
             }
-            let between: BTreeSet<Leaf> =
-                counted.iter().flat_map(|(_, c)| c.between.iter().copied()).collect();
-            let split: Vec<Leaf> =
-                between.iter().copied().filter(|&leaf| atlas.depth_of(leaf) < limits.depth).collect();
-            complete &= split.len() == between.len();
+            let gather = |boxes: fn(&Counted) -> &[Leaf]| -> Vec<Leaf> {
+                let all: BTreeSet<Leaf> =
+                    counted.iter().flat_map(|(_, c)| boxes(c).iter().copied()).collect();
+                all.into_iter().filter(|&leaf| atlas.depth_of(leaf) < limits.depth).collect()
+            };
+            let ways = gather(|c| &c.between.ways);
+            let mut split = gather(|c| &c.between.front);
+            split.extend(
+                ways.iter().filter(|leaf| split.binary_search(leaf).is_err()).copied().collect::<Vec<_>>(),
+            );
+            split.sort_unstable();
             if split.is_empty() || split.len() > limits.affordable(&atlas) || limits.is_over(control) {
-                complete &= split.is_empty();
+                complete &= counted.iter().all(|(_, c)| c.is_exact());
                 break;
             }
             let exact = counted.iter().filter(|(_, c)| c.is_exact()).count() as u64;
-            (control.progress)(Progress { stage: "joining pieces", done: exact, total: counted.len() as u64 });
-            let fresh = atlas.split(&split, control);
-            complete &= atlas.uncover(fresh, &limits, control);
-            if std::env::var("TRACE").is_ok() {
-                for &(sheet, node) in split.iter().take(4) { eprintln!("   sheet {sheet} depth {} {:?} classes {:016b}", atlas.sheets[sheet].depth_of(node), atlas.sheets[sheet].bounds(node), atlas.sheets[sheet].nodes[node as usize].undecided); }
-                eprintln!("{:?} split {} boxes {} exact {:?}", start.elapsed(), split.len(), atlas.boxes(), counted.iter().map(|(_, c)| (c.found.len(), c.high())).collect::<Vec<_>>());
+            (control.progress)(Progress {
+                stage: "joining pieces",
+                done: exact,
+                total: counted.len() as u64,
+            });
+            let mut fresh = atlas.split(&split, control);
+            // Ways are few: they are followed several levels down before the pieces are counted again.
+            let torn =
+                counted.iter().filter(|(_, c)| !c.is_exact()).fold(0, |torn, (class, _)| torn | class.bit);
+            let mut tips = ways;
+            for _ in 0..AHEAD {
+                tips = atlas.undecided_children(&tips, torn);
+                if tips.len() > limits.affordable(&atlas) {
+                    break;
+                }
+                fresh.extend(atlas.split(&tips, control));
             }
+            complete &= atlas.uncover(fresh, &limits, control);
             counted = counted
                 .into_par_iter()
-                .map(|(class, old)| if old.is_exact() { (class, old) } else { (class, count(&atlas, class, control)) })
+                .map(
+                    |(class, old)| {
+                        if old.is_exact() { (class, old) } else { (class, count(&atlas, class, control)) }
+                    },
+                )
                 .collect();
+        }
+        let even = atlas.even_out(budget.even(window), &limits, control);
+        complete &= even.reached;
+        if even.changed {
+            counted = counted
+                .into_par_iter()
+                .map(|(class, old)| {
+                    let new = count(&atlas, class, control);
+                    (class, if old.is_exact() && !new.is_exact() { old } else { new })
+                })
+                .collect();
+            for leaf in
+                counted.iter().flat_map(|(class, c)| c.summitless.iter().map(|&leaf| (leaf, class.bit)))
+            {
+                atlas.remember(leaf.0, leaf.1);
+            }
         }
         let stop = match () {
             () if counted.iter().all(|(_, c)| c.is_exact()) => Stop::Exact,
@@ -79,6 +122,9 @@ impl<'a> Search<'a> {
         Self { atlas, counted, stop }
     }
 }
+
+/// How many levels further ways are followed at once.
+const AHEAD: usize = 2;
 
 /// The share of a time budget after which the search ends; the last count and the report take the rest.
 const SHARE: f64 = 0.7;

@@ -69,7 +69,9 @@ pub(super) fn summitless<const D: usize, const N: usize, const M: usize>(
         }
         (0..LANES).for_each(|l| proved[l] |= held[l]);
     }
-    for (l, &(node, _)) in boxes.iter().enumerate().filter(|(_, b)| u32::from(paving.nodes[b.0 as usize].depth) >= DEEP) {
+    for (l, &(node, _)) in
+        boxes.iter().enumerate().filter(|(_, b)| u32::from(paving.nodes[b.0 as usize].depth) >= DEEP)
+    {
         let left = asked[l] & !proved[l];
         for (m, &mode) in paving.modes.iter().enumerate().filter(|(m, _)| left >> (2 * m) & 3 != 0) {
             proved[l] |= left & view.saddles::<D>(robot, scale, node, l, (m, mode));
@@ -94,7 +96,8 @@ fn parts<const N: usize>(heights: &[Pack; N], cut: &[bool; N]) -> impl Iterator<
             part[j] = Pack::from_fn(|l| {
                 let whole = heights[j].lane(l);
                 // The same formula for the end of one part and the start of the next: no gap.
-                let at = |k: f64| if k == of { whole.hi } else { whole.lo + (whole.hi - whole.lo) * (k / of) };
+                let at =
+                    |k: f64| if k == of { whole.hi } else { whole.lo + (whole.hi - whole.lo) * (k / of) };
                 Interval::new(at(k), at(k + 1.0))
             });
         }
@@ -294,8 +297,7 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
     /// The legs that are singular in some box in which something is asked.
     fn singular(&self, asked: &[ClassSet; LANES]) -> [bool; N] {
         std::array::from_fn(|j| {
-            self.rooted[j]
-                && (0..LANES).any(|l| asked[l] != 0 && is_singular(self.reach[j].value.lane(l)))
+            self.rooted[j] && (0..LANES).any(|l| asked[l] != 0 && is_singular(self.reach[j].value.lane(l)))
         })
     }
 
@@ -308,9 +310,12 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
         asked: &[ClassSet; LANES],
     ) -> [ClassSet; LANES] {
         let part = self.part(robot, heights);
-        let frames: [ArrayVec<Frame<N, M>, 2>; LANES] = std::array::from_fn(|l| {
-            if asked[l] == 0 { ArrayVec::new() } else { self.frames(&part, l, scale) }
-        });
+        let frames: [ArrayVec<Frame<N, M>, 2>; LANES] =
+            std::array::from_fn(
+                |l| {
+                    if asked[l] == 0 { ArrayVec::new() } else { self.frames(&part, l, scale) }
+                },
+            );
         let any = asked.iter().fold(0, |any, classes| any | classes);
         let mut proved = [0; LANES];
         for (m, &mode) in self.paving.modes.iter().enumerate().filter(|(m, _)| any >> (2 * m) & 3 != 0) {
@@ -349,7 +354,7 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
             .iter()
             .fold(f64::INFINITY, |least, g| least.min(g.value.lo));
         let det = self.determinant(&part, mode).growth(&frame, mode, scale, lane).value;
-        if !(det.magnitude() < least) {
+        if det.magnitude() >= least {
             return 0;
         }
         let [plus, minus] = no_local_maximum::<SPACE, N, M>(robot, self.paving, node, mode);

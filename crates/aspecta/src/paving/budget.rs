@@ -20,7 +20,7 @@ pub struct Budget {
 
 /// Greatest depth a paving can have.
 pub const MAX_DEPTH: u32 = 20;
-/// Greatest number of boxes a paving holds (28 bytes each, so about 1 GiB); larger budgets are cut to it.
+/// Greatest number of boxes a paving holds (32 bytes each, so about 1 GiB); larger budgets are cut to it.
 pub const MAX_BOXES: u64 = 40_000_000;
 
 /// The share of a time budget after which the paving ends; counting its components takes about as long again.
@@ -38,11 +38,17 @@ impl Budget {
         self.depth.into_iter().chain(finest).min().map(|depth| depth.clamp(1, MAX_DEPTH))
     }
 
-    /// The budget of an even paving to start a search with: to the depth asked for; to depth 16 on a line, 9 in the plane and 5 in
-    /// space if none is.
-    pub fn even(&self, window: &Window) -> Self {
+    /// The budget of the even paving that a search starts with: depth 16 on a line, 9 in the plane and 5 in space, or what is
+    /// asked for if that is less.
+    pub fn start(&self, window: &Window) -> Self {
         let usual = [16, 9, 5][window.axes().len().clamp(1, 3) - 1];
-        Self { depth: Some(self.finest(window).unwrap_or(usual)), ..*self }
+        Self { depth: Some(self.finest(window).map_or(usual, |depth| depth.min(usual))), ..*self }
+    }
+
+    /// The depth to which everything undecided is split in the end, for measures and pictures: what is asked for, or 16 on a line,
+    /// 11 in the plane and 7 in space.
+    pub fn even(&self, window: &Window) -> u32 {
+        self.finest(window).unwrap_or([16, 11, 7][window.axes().len().clamp(1, 3) - 1])
     }
 
     /// The depth of an even paving: that of [`Budget::finest`], or 16 on a line, 11 in the plane and 8 in space.

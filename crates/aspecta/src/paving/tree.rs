@@ -189,6 +189,11 @@ impl Paving {
     /// it by more than rounding, so that it surely holds it. `None` outside the window, and off the slice if
     /// coordinates are held.
     pub fn find(&self, sight: &impl Fn(&Node) -> Mark, pose: &[f64]) -> Option<(u32, bool)> {
+        self.descend_to(pose, &mut |at| sight(&self.nodes[at as usize]) != Mark::Open)
+    }
+
+    /// The first box on the way down to the pose at which `stop` holds, or the leaf, as in [`Paving::find`].
+    pub fn descend_to(&self, pose: &[f64], stop: &mut impl FnMut(u32) -> bool) -> Option<(u32, bool)> {
         let mut unit = [0.0; 3];
         for (k, &x) in pose.iter().enumerate() {
             let fraction = self.window.fraction(k, x)?;
@@ -201,8 +206,8 @@ impl Paving {
         loop {
             let node = &self.nodes[at as usize];
             let cells = (1u64 << depth) as f64;
-            if node.first_child == 0 || sight(node) != Mark::Open {
-                // Positions are off by some 1e-15 of the window, boxes are at least 1e-6 of it wide.
+            if node.first_child == 0 || stop(at) {
+                // Positions are off by some 1e-15 of the window, boxes are at least 1e-8 of it wide.
                 let surely = unit.iter().zip(node.corner).all(|(u, i)| {
                     let within = u * cells - f64::from(i);
                     (1e-6..=1.0 - 1e-6).contains(&within)

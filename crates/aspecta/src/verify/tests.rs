@@ -1,7 +1,7 @@
 //! Certificates that hold, and certificates with planted faults.
 
 use super::*;
-use crate::aspect::certified::certified;
+use crate::aspect::{Options, analyze};
 use crate::certificate::{Claim, Entry, Join, Leaf};
 use crate::num::Scalar;
 use crate::paving::Budget;
@@ -9,6 +9,15 @@ use crate::robot::{Actuator, Leg as RobotLeg, Limit, Platform, Robot, catalogue}
 use proptest::prelude::*;
 use std::sync::LazyLock;
 use std::sync::atomic::AtomicBool;
+
+/// What an analysis proves of a robot, or of the slice `fix`: its leaves, joins and seams. Nothing is claimed.
+fn certified(robot: &Robot, fix: &[(usize, f64)], budget: &Budget) -> Certificate {
+    let options = Options { budget: *budget, fix: fix.to_vec(), certificate: true };
+    let control = Control { cancelled: &AtomicBool::new(false), progress: &|_| {} };
+    let mut certificate = analyze(robot, &options, &control).unwrap().certificate.unwrap();
+    certificate.claims.fill(Claim { low: 0, high: None });
+    certificate
+}
 
 fn checked(certificate: &Certificate) -> Verdict {
     verify(certificate, &Control { cancelled: &AtomicBool::new(false), progress: &|_| {} })
@@ -296,4 +305,21 @@ fn truncated_files_are_refused() {
 fn a_cancelled_check_proves_nothing() {
     let verdict = verify(&COARSE, &Control { cancelled: &AtomicBool::new(true), progress: &|_| {} });
     assert!(!verdict.complete && !verdict.is_verified());
+}
+
+#[test]
+#[ignore]
+fn experiment_full() {
+    let robot = catalogue::find("3-rrr").unwrap();
+    let t = std::time::Instant::now();
+    let certificate =
+        certified(&robot, &[], &Budget { boxes: Some(250_000), depth: Some(7), ..Budget::default() });
+    println!("searched {:?}", t.elapsed());
+    let t = std::time::Instant::now();
+    let verdict = checked(&certificate);
+    println!("{:?} {:?} {} {}", t.elapsed(), verdict.claims, verdict.boxes, verdict.leaves);
+    for fault in &verdict.faults {
+        println!("{}", fault.in_words(&certificate.modes));
+    }
+    println!("{:?}", verdict.classes.iter().map(|c| c.proved).collect::<Vec<_>>());
 }

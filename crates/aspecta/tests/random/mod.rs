@@ -1,29 +1,14 @@
 //! Random robots that close at a random pose, built backwards from the pose.
 
+mod split_mix;
+
 use aspecta::num::{Interval, Scalar};
 use aspecta::robot::{Actuator, Frame, Leg, Platform, Robot, point};
 use std::f64::consts::PI;
 
-/// SplitMix64: a seed names a case, so a failure can be repeated.
-pub struct Random(pub u64);
+pub use split_mix::Random;
 
 impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    pub fn within(&mut self, lo: f64, hi: f64) -> f64 {
-        lo + (hi - lo) * self.unit()
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        (self.unit() * n as f64) as usize
-    }
-
     fn direction(&mut self, space: usize) -> [f64; 3] {
         let (turn, z) = (self.within(-PI, PI), self.within(-1.0, 1.0));
         let across = if space == 2 { 1.0 } else { (1.0 - z * z).sqrt() };
