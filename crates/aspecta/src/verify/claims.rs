@@ -1,6 +1,6 @@
 //! What is claimed of a leaf, proved again by cutting it up.
 
-use super::view::{Coordinates, Existence, Setting, View};
+use super::view::{Coordinates, Existence, Heights, Setting, View};
 use crate::certificate::Leaf;
 use crate::kinematics::WorkingMode;
 use crate::kinematics::chart::Fold;
@@ -8,7 +8,7 @@ use crate::num::Interval;
 use crate::paving::ClassSet;
 
 /// Most boxes into which the proof of a leaf is cut, before the claim counts as unproved.
-const EFFORT: usize = 5_000;
+const EFFORT: usize = 20_000;
 
 /// Claims still to be proved in a box.
 #[derive(Clone, Copy, Debug, Default)]
@@ -66,7 +66,7 @@ pub(super) fn prove(
             continue;
         }
         spent += 1;
-        let doubt = settle(&View::new(setting, y), modes, folds, &mut needs)?;
+        let doubt = settle(setting, y, modes, folds, &mut needs)?;
         if needs.none() {
             continue;
         }
@@ -89,11 +89,13 @@ const SUMMIT: &str = "claimed summitless, but P may have a maximum here";
 
 /// Strikes from `needs` what is proved of a box, and says what is in doubt with the first of the rest.
 fn settle(
-    view: &View<'_>,
+    setting: &Setting<'_>,
+    y: Coordinates,
     modes: &[WorkingMode],
     folds: &[&Fold],
     needs: &mut Needs,
 ) -> Result<&'static str, Unproved> {
+    let view = View::new(setting, y);
     if needs.covered && (view.cannot_close() || folds.iter().any(|fold| view.is_covered_by(fold))) {
         needs.covered = false;
     }
@@ -121,7 +123,9 @@ fn settle(
                 (_, true) => doubt = doubt.or(Some(NOT_OUTSIDE)),
                 _ => {}
             }
-            if needs.summitless & bit != 0 && (outside || view.is_summitless(mode, sign_of(class))) {
+            if needs.summitless & bit != 0
+                && (outside || is_summitless(setting, &view, y, mode, sign_of(class)))
+            {
                 needs.summitless &= !bit;
             } else if needs.summitless & bit != 0 {
                 doubt = doubt.or(Some(SUMMIT));
@@ -129,6 +133,44 @@ fn settle(
         }
     }
     Ok(doubt.unwrap_or(COVERED))
+}
+
+/// Most parts into which the h_j of loose legs are cut.
+const PARTS: usize = 48;
+
+/// Whether P has no maximum in a box. Near a serial singularity h_j varies like the root of the box's width, however small the box:
+/// other directions may lead uphill for other h_j, so their ranges are cut too.
+fn is_summitless(
+    setting: &Setting<'_>,
+    view: &View<'_>,
+    y: Coordinates,
+    mode: WorkingMode,
+    sign: f64,
+) -> bool {
+    if view.is_summitless(mode, sign) {
+        return true;
+    }
+    let Some(whole) = view.heights_of_loose(mode) else { return false };
+    let cut = |heights: &Heights| {
+        let share = |j: &usize| {
+            if whole[*j].hi.is_finite() { heights[*j].width() / whole[*j].width() } else { 0.0 }
+        };
+        let widest = (0..whole.len()).max_by(|a, b| share(a).total_cmp(&share(b))).unwrap_or(0);
+        let (mut low, mut high) = (*heights, *heights);
+        low[widest].hi = heights[widest].mid();
+        high[widest].lo = heights[widest].mid();
+        [low, high]
+    };
+    let mut open = cut(&whole).to_vec();
+    for _ in 0..PARTS {
+        let Some(heights) = open.pop() else { return true };
+        let part = View::of_part(setting, y, &heights);
+        let nowhere = part.existence(mode) == Existence::Nowhere;
+        if !nowhere && !part.is_summitless(mode, sign) {
+            open.extend(cut(&heights));
+        }
+    }
+    false
 }
 
 /// A box cut in two across the coordinate in which it is widest, in proportion to the window.

@@ -26,7 +26,7 @@
 //! Configurations are the zeros of f_j(y, q_j). With n_j = ∂f_j/∂y, a velocity (ẏ, q̇) is tangent if n_j·ẏ + B_jj q̇_j = 0. Where B_jj ≠ 0
 //! this gives q̇_j. Where B_jj may vanish, ẏ is chosen exactly perpendicular to n_j and q̇_j = 0, or ẏ = −B_jj c and q̇_j = n_j·c: det A, B_jj
 //! and the limits are smooth functions of (y, q), so nothing grows without bound. H_j = B_jj² (B_jj²/4 for prismatic legs) grows where
-//! s_j B_jj does.
+//! s_j B_jj does. Near B_jj = 0 h_j = √H_j varies like the root of the box's width, so its range is cut too, with vectors for each part.
 //!
 //! # What is taken for granted
 //! The arithmetic of the machine and of [`Interval`]; that the leg equation is that of the robot; that a window from

@@ -90,20 +90,22 @@ impl View<'_> {
         all
     }
 
-    /// Sets of legs for which velocities are chosen with care: those whose B_jj may vanish must be among them; those
-    /// whose B_jj varies much may better be.
+    /// Sets of legs for which velocities are chosen with care: those whose B_jj may vanish must be among them; it helps if those are
+    /// whose H_j is small, because the gradients of det A and H_j are nearly parallel there.
     fn choices_of_loose(&self, legs: &[Option<&Posture>; MOST]) -> Vec<Vec<usize>> {
-        let among = |wanted: &dyn Fn(&Posture) -> bool| -> Vec<usize> {
-            let fit = |j: &usize| !self.setting.is_fold(*j) && legs[*j].is_some_and(wanted);
-            (0..MOST).filter(fit).collect()
+        let rooted = |j: usize| {
+            legs[j].is_some()
+                && !self.setting.is_fold(j)
+                && self.setting.robot.legs[j].actuator.postures() == 2
         };
-        let must = among(&|p| p.loose);
-        let varied = |p: &Posture| {
-            let b = p.over.slope.value;
-            p.loose || b.lo.abs().min(b.hi.abs()) < 0.5 * b.magnitude()
+        let must = |j: usize| legs[j].is_some_and(|leg| leg.loose);
+        let among = |most: f64| -> Vec<usize> {
+            let is_small = |j: usize| rooted(j) && self.reach[j].hi <= most * self.setting.scale.reach[j];
+            (0..MOST).filter(|&j| must(j) || is_small(j)).collect()
         };
-        let may = among(&varied);
-        if must == may { vec![must] } else { vec![may, must] }
+        let mut choices: Vec<Vec<usize>> = [0.0, 0.1, 0.3, 1.0].map(among).to_vec();
+        choices.dedup();
+        choices
     }
 
     /// As many tangent vectors of the configurations as there are coordinates that vary. With n_j = ∂f_j/∂y they fulfil

@@ -306,20 +306,3 @@ fn a_cancelled_check_proves_nothing() {
     let verdict = verify(&COARSE, &Control { cancelled: &AtomicBool::new(true), progress: &|_| {} });
     assert!(!verdict.complete && !verdict.is_verified());
 }
-
-#[test]
-#[ignore]
-fn experiment_full() {
-    let robot = catalogue::find("3-rrr").unwrap();
-    let t = std::time::Instant::now();
-    let certificate =
-        certified(&robot, &[], &Budget { boxes: Some(250_000), depth: Some(7), ..Budget::default() });
-    println!("searched {:?}", t.elapsed());
-    let t = std::time::Instant::now();
-    let verdict = checked(&certificate);
-    println!("{:?} {:?} {} {}", t.elapsed(), verdict.claims, verdict.boxes, verdict.leaves);
-    for fault in &verdict.faults {
-        println!("{}", fault.in_words(&certificate.modes));
-    }
-    println!("{:?}", verdict.classes.iter().map(|c| c.proved).collect::<Vec<_>>());
-}

@@ -32,6 +32,21 @@ impl Setting<'_> {
 /// A box of coordinates; entries beyond the last coordinate are zero.
 pub(super) type Coordinates = [Interval; MOST];
 
+/// Ranges of h_j = √H_j.
+pub(super) type Heights = [Interval; MOST];
+
+/// All that can be.
+const ANY: Heights = [Interval { lo: 0.0, hi: f64::INFINITY }; MOST];
+
+/// The part of a range of H where √H is in `height`; negative if there is none.
+fn part(reach: Interval, height: Interval) -> Interval {
+    if height == ANY[0] {
+        return reach;
+    }
+    let (lo, hi) = (reach.lo.max(height.square().lo), reach.hi.min(height.square().hi));
+    if lo <= hi { Interval::new(lo, hi) } else { Interval::point(-1.0) }
+}
+
 /// A leg in one posture over the box.
 pub(super) struct Posture {
     /// All q there.
@@ -56,6 +71,8 @@ pub(super) struct View<'a> {
     /// y minus its middle.
     about: Coordinates,
     /// Range of H_j; [1, 1] for struts.
+    whole: [Interval; MOST],
+    /// The part of it that is looked at.
     pub reach: [Interval; MOST],
     /// For s = + and s = −; a strut has the second only, and a leg that cannot close anywhere in the box has none.
     postures: [[Option<Posture>; 2]; MOST],
@@ -73,13 +90,18 @@ pub(super) enum Existence {
 
 impl<'a> View<'a> {
     pub(super) fn new(setting: &'a Setting<'a>, y: Coordinates) -> Self {
+        Self::of_part(setting, y, &ANY)
+    }
+
+    /// The configurations in the box for which each h_j = √H_j is in a range.
+    pub(super) fn of_part(setting: &'a Setting<'a>, y: Coordinates, heights: &Heights) -> Self {
         match setting.robot.platform.space() {
-            2 => Self::in_space::<2>(setting, y),
-            _ => Self::in_space::<3>(setting, y),
+            2 => Self::in_space::<2>(setting, y, heights),
+            _ => Self::in_space::<3>(setting, y, heights),
         }
     }
 
-    fn in_space<const D: usize>(setting: &'a Setting<'a>, y: Coordinates) -> Self {
+    fn in_space<const D: usize>(setting: &'a Setting<'a>, y: Coordinates, heights: &Heights) -> Self {
         let middle = y.map(|x| Interval::point(x.mid()));
         let about = std::array::from_fn(|k| y[k] - middle[k]);
         let over = Body::<Function, D>::new(
@@ -88,12 +110,13 @@ impl<'a> View<'a> {
             &std::array::from_fn(|k| Function::variable(y[k], k)),
         );
         let at_middle = Body::<Interval, D>::new(setting.robot, setting.chart, &middle);
-        let mut view =
-            Self { setting, y, about, reach: [ONE; MOST], postures: std::array::from_fn(|_| [None, None]) };
+        let postures = std::array::from_fn(|_| [None, None]);
+        let mut view = Self { setting, y, about, whole: [ONE; MOST], reach: [ONE; MOST], postures };
         for j in 0..setting.robot.dof() {
             let span = (over.span(j), at_middle.span(j));
             if let (Some(over), Some(at_middle)) = (over.reach(j, &span.0), at_middle.reach(j, &span.1)) {
-                view.reach[j] = view.range_in_coordinates(&over, at_middle);
+                view.whole[j] = view.range_in_coordinates(&over, at_middle);
+                view.reach[j] = part(view.whole[j], heights[j]);
             }
             if view.reach[j].hi < 0.0 {
                 continue;
@@ -177,7 +200,7 @@ impl<'a> View<'a> {
         let mut q = joint(actuator, narrow, reach, sign);
         let f = equation(actuator, span, Function::variable(q, MOST + j));
         let slope = f.gradient[MOST + j];
-        if !self.reach[j].is_positive() || slope.sign() == 0 {
+        if !self.whole[j].is_positive() || slope.sign() == 0 {
             let middle = Interval::point(q.mid());
             return Joint { q, middle, loose: true, rate: [ZERO; MOST] };
         }
@@ -195,6 +218,14 @@ impl<'a> View<'a> {
             q = q.meet(centred);
         }
         Joint { q, middle, loose: false, rate }
+    }
+
+    /// The ranges of h_j of the legs that are loose in a mode, or `None` if none is.
+    pub(super) fn heights_of_loose(&self, mode: WorkingMode) -> Option<Heights> {
+        let legs = self.legs(mode)?;
+        let is_loose = |j: usize| legs[j].is_some_and(|leg| leg.loose);
+        let heights = std::array::from_fn(|j| if is_loose(j) { self.reach[j].sqrt() } else { ANY[j] });
+        (0..MOST).any(is_loose).then_some(heights)
     }
 
     /// The range of a function of the coordinates alone.
