@@ -121,7 +121,7 @@ impl Found {
         let components = &counted.components;
         let total =
             |group: &Group| group.pieces.iter().map(|&k| components.pieces[k as usize].measure).sum::<f64>();
-        let mut groups: Vec<&Group> = counted.found.iter().collect();
+        let mut groups: Vec<&Group> = counted.found.iter().filter(|group| group.anchored).collect();
         groups.sort_by(|a, b| total(b).total_cmp(&total(a)));
         let mut label_of_piece = vec![0; components.pieces.len()];
         for (k, group) in groups.iter().enumerate() {
@@ -172,7 +172,7 @@ fn aspect(atlas: &Atlas<'_>, class: Class, components: &Components, group: &Grou
 
 /// All that the bounds rest on.
 fn certificate(atlas: &Atlas<'_>, counted: &[(Class, Counted)]) -> Certificate {
-    let claims = counted.iter().map(|(_, c)| Claim { low: c.found.len(), high: c.high() }).collect();
+    let claims = counted.iter().map(|(_, c)| Claim { low: c.low(), high: c.high() }).collect();
     let index = |class: &Class| class.bit.trailing_zeros() as usize;
     let joins = counted
         .iter()

@@ -115,6 +115,16 @@ impl<'a> Atlas<'a> {
         boxes.iter().flat_map(children).filter(undecided).collect()
     }
 
+    /// Whether the box belongs to a fold's sheet, or its centre surely lies in no fold's chart: a set of configurations that holds it
+    /// has a point that no other boxes than those of its component of G⁺ can cover.
+    pub(super) fn is_anchor(&self, (sheet, node): Leaf) -> bool {
+        if sheet > 0 || self.folds.is_empty() {
+            return true;
+        }
+        let pose: Vec<Interval> = self.sheets[0].centre(node).into_iter().map(Interval::point).collect();
+        for_platform!(self.robot.platform, outside_folds(self.robot, &self.folds, &pose))
+    }
+
     /// Boxes classified so far.
     pub(super) fn boxes(&self) -> u64 {
         self.sheets.iter().map(|paving| paving.boxes).sum()
@@ -250,6 +260,13 @@ impl<'a> Atlas<'a> {
         }
         children
     }
+}
+
+/// Whether a pose surely lies in none of the folds' charts.
+fn outside_folds<const D: usize, const N: usize>(robot: &Robot, folds: &[Fold], pose: &[Interval]) -> bool {
+    let x: [Interval; N] = std::array::from_fn(|k| pose[k]);
+    let (_, legs) = Chart::Pose.at::<Interval, D, N>(robot, &x, |k| x[k].sin_cos());
+    folds.iter().all(|fold| fold.cover(&legs[fold.leg]).iter().any(|margin| margin.is_negative()))
 }
 
 /// Visits the pairs of boxes of sheet 0 and of a fold's sheet that meet: `join(a, b, surely)`.

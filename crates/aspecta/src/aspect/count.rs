@@ -36,11 +36,19 @@ pub(super) struct Group {
     pub component: u32,
     /// Its pieces of inside boxes.
     pub pieces: Vec<u32>,
+    /// Whether it surely holds an aspect of its own: not so if all its inside boxes may lie within the chart of a fold, whose own
+    /// boxes, which they need not meet, then stand for them.
+    pub anchored: bool,
     /// In how many parts, not joined, an aspect may have its summit: at most this many aspects, if the class is closed.
     pub summits: usize,
 }
 
 impl Counted {
+    /// At least so many aspects.
+    pub(super) fn low(&self) -> usize {
+        self.found.iter().filter(|group| group.anchored).count()
+    }
+
     /// At most so many aspects.
     pub(super) fn high(&self) -> Option<usize> {
         self.closed.then(|| self.found.iter().map(|group| group.summits).sum())
@@ -48,7 +56,7 @@ impl Counted {
 
     /// Whether the bounds meet.
     pub(super) fn is_exact(&self) -> bool {
-        self.high() == Some(self.found.len())
+        self.high() == Some(self.low())
     }
 }
 
@@ -66,10 +74,20 @@ pub(super) fn count(atlas: &Atlas<'_>, class: Class, control: &Control<'_>) -> C
     for (k, piece) in components.pieces.iter().enumerate() {
         groups.entry(piece.component).or_default().push(k as u32);
     }
+    let mut anchored = BTreeSet::new();
+    for (i, &leaf) in components.boxes.iter().enumerate() {
+        if let (Some(component), Some(_)) = (components.component_of[i], components.piece_of[i])
+            && !anchored.contains(&component)
+            && atlas.is_anchor(leaf)
+        {
+            anchored.insert(component);
+        }
+    }
     let group = |(component, pieces): (u32, Vec<u32>)| {
+        let anchored = anchored.contains(&component);
         let tops = pieces.iter().filter(|&&k| fertile[k as usize]).map(|&k| joined.root(k));
         let summits = tops.collect::<BTreeSet<u32>>().len().max(1);
-        Group { component, pieces, summits }
+        Group { component, pieces, anchored, summits }
     };
     let found: Vec<Group> = groups.into_iter().map(group).collect();
     let closed = components.boxes.iter().all(|&leaf| atlas.open(leaf) & class.bit == 0);
