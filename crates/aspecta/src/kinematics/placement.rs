@@ -159,7 +159,7 @@ pub fn determinant<T: Scalar, const N: usize>(m: &[[T; N]; N]) -> T {
     }
 }
 
-/// The cofactors: entry (j, i) is the derivative of the determinant with respect to m[j][i].
+/// The cofactors: entry (j, i) is the derivative of the determinant with respect to `m[j][i]`.
 pub fn cofactors<T: Scalar, const N: usize>(m: &[[T; N]; N]) -> [[T; N]; N] {
     let mut all = [[T::zero(); N]; N];
     for j in 0..N {
