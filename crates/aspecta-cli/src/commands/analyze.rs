@@ -5,7 +5,7 @@ use crate::failure::{Answer, Failure};
 use crate::input;
 use crate::output::{self, note};
 use aspecta::aspect::{Analysis, Options, analyze};
-use aspecta::paving::{Budget, Control, Progress, Stop};
+use aspecta::paving::{Budget, Stop};
 use aspecta_cli::{file, report};
 use clap::Args;
 use std::fs;
@@ -26,8 +26,13 @@ pub struct Analyze {
     /// Write the proof of the count into this file, for `aspecta verify`
     #[arg(long, value_name = "FILE")]
     certificate: Option<PathBuf>,
-    /// When to stop, whatever comes first: 30s | 5min | 2e6boxes | depth=9 | res=0.1, separated by commas
-    /// [default: depth 11 for 2 free coordinates, 8 for 3, 16 for 1; never more than 4e7 boxes]. Drawing --out comes on top
+    /// When to stop before the bounds meet, whatever comes first: 30s | 5min | 2e6boxes | depth=9 | res=0.1, separated
+    /// by commas.
+    ///
+    /// Without it the run goes on until the bounds on the number of aspects meet, until boxes are as fine as 1e-8 of the
+    /// window, or for 4e7 boxes; with it never longer. `depth` and `res` say how fine boxes may get, so the bounds may
+    /// stay apart; they also set how finely the rest is drawn and measured [default: depth 16 for 1 free coordinate, 11 for
+    /// 2, 7 for 3]. Times depend on the machine, the others do not. Drawing --out comes on top
     #[arg(long, value_parser = budget::parse, allow_hyphen_values = true)]
     budget: Option<Budget>,
     /// Hold a coordinate at a value and analyse that slice: x=-4, phi=0.5 (radians) or phi=30deg; again, or separated by
@@ -63,17 +68,8 @@ impl Analyze {
                 .map_err(Failure::in_directory(directory))?;
         }
         let proof = self.certificate.as_deref().map(place).transpose()?;
-        watch::threads(self.threads)?;
-        watch::interrupts()?;
-        let bar = watch::progress_bar();
-        let show = |p: Progress| {
-            bar.set_length(p.total);
-            bar.set_position(p.done);
-            bar.set_message(p.stage);
-        };
         let options = Options { budget: self.budget.unwrap_or_default(), fix, certificate: proof.is_some() };
-        let analysis = analyze(&robot, &options, &Control { cancelled: &watch::CANCELLED, progress: &show })?;
-        bar.finish_and_clear();
+        let analysis = watch::watched(self.threads, |control| analyze(&robot, &options, control))??;
         self.print(out, &analysis)?;
         if let (Some((directory, name)), Some(certificate)) = (&proof, &analysis.certificate) {
             let text = certificate.to_json().map_err(|e| Failure::Input(format!("certificate: {e}")))?;

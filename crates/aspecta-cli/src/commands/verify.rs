@@ -5,7 +5,6 @@ use crate::failure::{Answer, Failure};
 use crate::input;
 use crate::output::{self, Align, Table, note};
 use aspecta::certificate::{Certificate, Claim};
-use aspecta::paving::{Control, Progress};
 use aspecta::robot::Robot;
 use aspecta::verify::{Checked, Verdict, verify};
 use clap::Args;
@@ -42,16 +41,7 @@ impl Verify {
                 return Ok(Answer::No);
             }
         }
-        watch::threads(self.threads)?;
-        watch::interrupts()?;
-        let bar = watch::progress_bar();
-        let show = |p: Progress| {
-            bar.set_length(p.total);
-            bar.set_position(p.done);
-            bar.set_message(p.stage);
-        };
-        let verdict = verify(&certificate, &Control { cancelled: &watch::CANCELLED, progress: &show });
-        bar.finish_and_clear();
+        let verdict = watch::watched(self.threads, |control| verify(&certificate, control))?;
         if self.json {
             output::json(out, &verdict)?;
         } else {

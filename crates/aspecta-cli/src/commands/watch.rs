@@ -2,16 +2,32 @@
 
 use crate::failure::Failure;
 use crate::output::note;
+use aspecta::paving::{Control, Progress};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 /// Set by Ctrl-C, once [`interrupts`] is called.
-pub static CANCELLED: AtomicBool = AtomicBool::new(false);
+static CANCELLED: AtomicBool = AtomicBool::new(false);
+
+/// Does long work on a number of threads (all cores if none is given), shows how far it has come, and lets Ctrl-C stop it.
+pub fn watched<T>(threads: Option<u16>, work: impl FnOnce(&Control<'_>) -> T) -> Result<T, Failure> {
+    limit(threads)?;
+    interrupts()?;
+    let bar = progress_bar();
+    let show = |p: Progress| {
+        bar.set_length(p.total);
+        bar.set_position(p.done);
+        bar.set_message(p.stage);
+    };
+    let result = work(&Control { cancelled: &CANCELLED, progress: &show });
+    bar.finish_and_clear();
+    Ok(result)
+}
 
 /// The first Ctrl-C asks the work to stop and keep its result, the second ends the program.
-pub fn interrupts() -> Result<(), Failure> {
+fn interrupts() -> Result<(), Failure> {
     let interrupted = || {
         if CANCELLED.swap(true, Ordering::Relaxed) {
             process::exit(130);
@@ -22,7 +38,7 @@ pub fn interrupts() -> Result<(), Failure> {
 }
 
 /// On stderr, and only if that is a terminal.
-pub fn progress_bar() -> ProgressBar {
+fn progress_bar() -> ProgressBar {
     let style = ProgressStyle::with_template("{spinner} {elapsed} {wide_bar} {percent:>3} % {msg}");
     let bar = ProgressBar::new(1).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
     bar.enable_steady_tick(Duration::from_millis(200));
@@ -30,7 +46,7 @@ pub fn progress_bar() -> ProgressBar {
 }
 
 /// Limits the work to a number of threads.
-pub fn threads(threads: Option<u16>) -> Result<(), Failure> {
+fn limit(threads: Option<u16>) -> Result<(), Failure> {
     let Some(threads) = threads else { return Ok(()) };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
     pool.map_err(|e| Failure::Input(format!("--threads {threads}: {e}")))
