@@ -2,6 +2,8 @@
 
 const INK = "#222";
 const UNDECIDED = "#9b9b9b";
+// Baseline of the vertical axis' label.
+const LABEL = 13;
 
 export function drawSlice(canvas, volume, classes, axis, layer) {
   const [across, up] = [0, 1, 2].filter((k) => k !== axis);
@@ -14,15 +16,18 @@ export function drawSlice(canvas, volume, classes, axis, layer) {
   pen.fillStyle = "#fff";
   pen.fillRect(0, 0, width, height);
 
-  const plot = fit(volume.axes[across], volume.axes[up], width, height);
+  pen.font = "11px system-ui, sans-serif";
+  const plot = fit(pen, volume.axes[across], volume.axes[up], width, height);
   pen.imageSmoothingEnabled = false;
   pen.drawImage(picture(volume, classes, axis, layer), plot.left, plot.top, plot.width, plot.height);
   frame(pen, volume.axes[across], volume.axes[up], plot);
 }
 
-// Equal scale for two lengths or two angles, else the whole room.
-function fit(x, y, width, height) {
-  const room = { left: 52, top: 12, width: width - 66, height: height - 54 };
+// Beside the vertical axis' label and its numbers: equal scale for two lengths or two angles, else the whole room.
+function fit(pen, x, y, width, height) {
+  const numbers = Math.max(...ticks(y).map(([, text]) => pen.measureText(text).width));
+  const left = Math.ceil(LABEL + 6 + numbers + 7);
+  const room = { left, top: 12, width: width - left - 14, height: height - 54 };
   if (x.angle !== y.angle) return room;
   const [dx, dy] = [x.range[1] - x.range[0], y.range[1] - y.range[0]];
   const scale = Math.min(room.width / dx, room.height / dy);
@@ -57,7 +62,6 @@ function frame(pen, x, y, plot) {
   pen.strokeStyle = pen.fillStyle = INK;
   pen.lineWidth = 1;
   pen.strokeRect(plot.left, plot.top, plot.width, plot.height);
-  pen.font = "11px system-ui, sans-serif";
   pen.textAlign = "center";
   const bottom = plot.top + plot.height;
   for (const [value, text] of ticks(x)) {
@@ -73,7 +77,7 @@ function frame(pen, x, y, plot) {
     pen.fillText(text, plot.left - 7, py + 4);
   }
   pen.save();
-  pen.translate(13, plot.top + plot.height / 2);
+  pen.translate(LABEL, plot.top + plot.height / 2);
   pen.rotate(-Math.PI / 2);
   pen.textAlign = "center";
   pen.fillText(y.label, 0, 0);
