@@ -2,6 +2,7 @@
 //!
 //! Everything is drawn from an [`aspecta::aspect::Analysis`] or an [`aspecta::motion::PathCheck`]; nothing here decides anything about a robot.
 
+pub mod doubt;
 pub mod figure;
 pub mod file;
 pub mod report;

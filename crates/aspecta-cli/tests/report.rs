@@ -61,7 +61,37 @@ fn the_five_bar() {
     assert_eq!(page.matches("<strong>exactly 1</strong>").count(), 6);
     assert_eq!(page.matches("<strong>exactly 2</strong>").count(), 2);
     assert!(page.contains("exactly 10 generalized aspects"));
-    assert!(!page.contains("id=\"volume\""));
+    assert!(!page.contains("id=\"volume\"") && !page.contains("id=\"doubts\""));
+}
+
+/// Where the bounds are apart, the page says where and why.
+#[test]
+fn doubts() {
+    let analysis = analysis(&five_bar(), 6);
+    let (dir, _keep) = directory("five-bar-6");
+    let page = checked(&analysis, &dir, &["counts"], 3_000_000);
+    let (_, table) = page.split_once("<table id=\"doubts\">").unwrap();
+    let (table, _) = table.split_once("</table>").unwrap();
+    assert_eq!(analysis.doubts.len(), 8);
+    assert_eq!(table.matches("whether a whole aspect hides").count(), 8);
+    // The largest: mode +−, det A < 0.
+    assert!(table.contains("x: 3.70 … 3.97 unit") && table.contains("y: −11.78 … −11.38 unit"), "{table}");
+    assert!(table.find("x: 3.70") < table.find("x: −2.67"), "{table}");
+}
+
+/// Of a folded leg the page gives its own coordinates, and beyond the rows listed it says how many there are.
+#[test]
+fn doubts_about_folded_legs() {
+    let mut analysis = analysis(&three_rrr(), 4);
+    let doubt = &mut analysis.doubts[0];
+    (doubt.fold, doubt.measure) = (Some(2), 1e9);
+    doubt.place = vec![(0.5, 0.75), (-0.125, 0.125), (1.0, 1.5)];
+    let (dir, _keep) = directory("3-rrr-4");
+    let page = checked(&analysis, &dir, &["counts"], 15_000_000);
+    for text in ["leg 2 folded", "q2: 0.50 … 0.75 rad", "p: −0.12 … 0.12", "φ: 1.00 … 1.50 rad"] {
+        assert!(page.contains(&format!(">{text}</span>")), "{text}");
+    }
+    assert!(page.contains(&format!("… and {} more", analysis.doubts.len() - 16)));
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod budget;
 mod check;
 mod check_path;
 mod completions;
+mod doubts;
 mod fix;
 mod fk;
 mod ik;

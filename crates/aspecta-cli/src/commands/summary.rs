@@ -1,5 +1,6 @@
 //! The result of an analysis for people, in 100 columns.
 
+use super::doubts;
 use super::queries::Labels;
 use crate::failure::Failure;
 use crate::output::{Align, Table, brief};
@@ -12,7 +13,7 @@ const WIDTH: usize = 100;
 /// Aspects listed; the rest is in the JSON.
 const LISTED: usize = 40;
 
-/// Prints what was found: Theorem 1, Tables 1 and 2, the number of aspects, the aspects, Definitions 5 and 6.
+/// Prints what was found: Theorem 1, Tables 1 and 2, the number of aspects, where its bounds are apart, the aspects, Definitions 5 and 6.
 pub fn print(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
     let robot = &analysis.robot;
     let title = if robot.title.is_empty() { String::new() } else { format!(": {}", robot.title) };
@@ -23,6 +24,7 @@ pub fn print(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
     theorem_1(out, analysis)?;
     table_1(out, analysis)?;
     table_2(out, analysis)?;
+    doubts::print(out, analysis)?;
     aspects(out, analysis)?;
     writeln!(out)?;
     paragraph(out, &earlier("Def. 5, parallel aspects", &analysis.parallel_aspects, &analysis.measure))?;
@@ -182,9 +184,22 @@ fn run(analysis: &Analysis) -> String {
     });
     let cells = widths.collect::<Vec<_>>().join(" × ");
     format!(
-        "{} boxes in {:.2} s, finest cells {cells} (depth {}): {ended}.",
-        run.boxes, run.seconds, run.depth
+        "{} boxes in {:.2} s, finest cells {cells} (depth {}): {ended}, {}.",
+        run.boxes,
+        run.seconds,
+        run.depth,
+        found(analysis)
     )
+}
+
+/// `exactly 10 aspects`: said once more at the end, where a terminal stands still.
+fn found(analysis: &Analysis) -> String {
+    let low = analysis.aspects.low;
+    match analysis.aspects.high {
+        Some(high) if high == low => format!("exactly {low} aspects"),
+        Some(high) => format!("{low} to {high} aspects"),
+        None => format!("at least {low} aspects"),
+    }
 }
 
 /// `n`, `n-m` or `≥ n`.

@@ -1,5 +1,6 @@
 //! One standalone `report.html` and each of its figures as a file.
 
+mod doubts;
 mod page;
 mod tables;
 mod volume;

@@ -1,5 +1,6 @@
 //! The page itself.
 
+use super::doubts;
 use super::tables::{self, bounds, measure_unit, number};
 use super::{Figure, Figures, FlatFigures};
 use crate::figure::robot::signs;
@@ -133,6 +134,7 @@ fn counts_section(analysis: &Analysis) -> Markup {
             p { "A generalized aspect (Definition 8) is a largest connected set of configurations in one working mode with det A ≠ 0. \
                  Its projections are the W-aspect (poses) and the Q-aspect (joint vectors)." }
             div.scroll { (tables::classes(analysis)) }
+            (doubts::table(analysis))
             details open[analysis.aspects.low <= 24] {
                 summary { "All " (analysis.aspects.low) " proved aspects" }
                 div.scroll { (tables::aspects(analysis)) }

@@ -1,10 +1,10 @@
 //! The tables of the page and the words for its numbers.
 
-use crate::figure::maps::sign_text;
 use crate::figure::palette;
 use crate::figure::robot::{signs, subscript};
 use crate::figure::survey::coordinate_name;
-use aspecta::aspect::{Analysis, AspectClass, Reachable};
+use aspecta::aspect::{Analysis, AspectClass, DetSign, Reachable};
+use aspecta::kinematics::WorkingMode;
 use aspecta::robot::{Actuator, Leg, Robot};
 use maud::{Markup, html};
 
@@ -90,9 +90,12 @@ fn reachable(r: Reachable) -> &'static str {
     }
 }
 
-/// Table 2: the numbers of generalized aspects.
+/// Table 2: the numbers of generalized aspects, in the paper's order: all modes with det A > 0, then all with det A < 0.
 pub fn classes(analysis: &Analysis) -> Markup {
     let n = analysis.robot.dof();
+    let in_order = [DetSign::Positive, DetSign::Negative]
+        .into_iter()
+        .flat_map(|sign| analysis.classes.iter().filter(move |c| c.det_a == sign));
     let what = analysis.measure.name;
     html! {
         table {
@@ -101,18 +104,22 @@ pub fn classes(analysis: &Analysis) -> Markup {
                  the " (what) " of their projections on the workspace in " (measure_unit(analysis)) "."
             }
             thead { tr {
-                th scope="col" { "mode" }
+                th scope="col" { "det A" } th scope="col" { "mode" }
                 @for k in 1..=n { th scope="col" { "B" sub { (k) (k) } } }
-                th scope="col" { "det A" } th scope="col" { "aspects" }
+                th scope="col" { "aspects" }
                 th scope="col" { "certified " (what) } th scope="col" { "undecided " (what) } th scope="col" { "undecided share" }
             } }
-            tbody { @for c in &analysis.classes { tr {
-                th.name scope="row" { (mode_name(analysis, c)) }
+            tbody { @for c in in_order { tr {
+                td.sign { (sign(c.det_a)) }
+                th.name scope="row" { (mode_name(analysis, c.mode)) }
                 @for s in c.mode.signs() { td.sign { @if s > 0 { "+" } @else { "−" } } }
-                td.sign { @if sign_text(c.det_a).ends_with("> 0") { "+" } @else { "−" } }
                 td { strong { (bounds(c.low, c.high)) } }
                 td.number { (number(c.measure)) } td.number { (number(c.undecided)) } td.number { (share(c)) }
             } } }
+            tfoot { tr {
+                th colspan=(n + 2) scope="row" { "all together" }
+                td colspan="4" { strong { (bounds(analysis.aspects.low, analysis.aspects.high)) } }
+            } }
         }
     }
 }
@@ -140,8 +147,8 @@ pub fn aspects(analysis: &Analysis) -> Markup {
             } }
             tbody { @for c in &analysis.classes { @for a in &c.aspects { tr {
                 th.number scope="row" { span.swatch style={ "background:" (palette::aspect(a.id)) } {} (a.id) }
-                td.name { (mode_name(analysis, c)) }
-                td.sign { @if sign_text(c.det_a).ends_with("> 0") { "+" } @else { "−" } }
+                td.name { (mode_name(analysis, c.mode)) }
+                td.sign { (sign(c.det_a)) }
                 td.number { (number(a.measure)) } td.number { (a.pieces) }
                 td { (vector(&a.sample.pose)) } td { (vector(&a.sample.q)) }
                 td { (ranges(&a.w_bounds, |k| coordinate_name(robot.platform.coordinates()[k].name).to_owned())) }
@@ -210,9 +217,14 @@ fn ranges(all: &[(f64, f64)], name: impl Fn(usize) -> String) -> Markup {
 }
 
 /// `Mf2 (+−)`.
-fn mode_name(analysis: &Analysis, class: &AspectClass) -> String {
-    let number = analysis.modes.iter().find(|m| m.mode == class.mode).map_or(0, |m| m.number);
-    format!("Mf{number}\u{a0}({})", signs(&class.mode.to_string()))
+pub fn mode_name(analysis: &Analysis, mode: WorkingMode) -> String {
+    let number = analysis.modes.iter().find(|m| m.mode == mode).map_or(0, |m| m.number);
+    format!("Mf{number}\u{a0}({})", signs(&mode.to_string()))
+}
+
+/// `+` or `−`.
+pub fn sign(sign: DetSign) -> &'static str {
+    if sign == DetSign::Positive { "+" } else { "−" }
 }
 
 /// Four significant digits.

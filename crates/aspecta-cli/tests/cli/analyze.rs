@@ -58,6 +58,8 @@ fn the_summary_has_both_tables_in_100_columns() {
         "3-rrr --budget depth=5",
         "spherical-3-rrr --budget depth=4",
         "3-rrr --budget depth=7 --fix phi=30deg",
+        "3-prr --budget depth=5",
+        "delta --budget 100000boxes",
     ] {
         let text = stdout(&format!("analyze {robot}"));
         for words in
@@ -129,4 +131,38 @@ fn out_writes_the_report() {
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     assert!(String::from_utf8_lossy(&output.stdout).contains("report.html"));
     assert!(out.join("report.html").metadata().unwrap().len() > 1000);
+}
+
+/// Where the bounds are apart, people are told where and why; as often as the JSON says, or how many more there are.
+#[test]
+fn doubts_are_listed() {
+    let apart = "five-bar --budget depth=6";
+    let (text, doubts) = (stdout(&format!("analyze {apart}")), json(&format!("analyze {apart} --json")));
+    let doubts = doubts["doubts"].as_array().unwrap().clone();
+    let (_, table) =
+        text.split_once("No upper bound: a whole aspect could hide in undecided boxes\n").unwrap();
+    let rows: Vec<&str> = table.lines().skip(1).take_while(|line| !line.is_empty()).collect();
+    assert!(table.contains("about [unit]") && !text.contains("Bounds apart"), "{text}");
+    assert_eq!(rows.len(), doubts.len());
+    for doubt in doubts {
+        let (mode, det_a) = (doubt["mode"].as_str().unwrap(), doubt["det_a"].as_str().unwrap());
+        let row = rows.iter().find(|row| row.split_whitespace().take(2).eq([mode, det_a])).unwrap();
+        let y = numbers(&doubt["place"][1]);
+        let (_, shown) = row.split_once("y = ").unwrap();
+        let shown: f64 = shown.split_whitespace().next().unwrap().parse().unwrap();
+        assert!((shown - 0.5 * (y[0] + y[1])).abs() < 1e-3, "{row}");
+        assert!(row.ends_with(doubt["undecided"][0].as_str().unwrap()), "{row}");
+    }
+
+    let text = stdout("analyze 3-rrr --budget 100000boxes");
+    assert!(text.contains("  leg 1 folded, q1 = "), "{text}");
+    assert!(text.contains(" more (--json lists all)"), "{text}");
+}
+
+#[test]
+fn bounds_that_meet_leave_no_doubts() {
+    let text = stdout("analyze five-bar");
+    assert!(!text.contains("undecided there"), "{text}");
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.ends_with("the bounds meet, exactly 10 aspects."), "{text}");
 }
