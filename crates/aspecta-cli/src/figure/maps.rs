@@ -21,33 +21,37 @@ const BELOW: f64 = 40.0;
 const BESIDE: f64 = 10.0;
 /// Least width of a figure with a legend.
 const LEGEND: f64 = 720.0;
+/// The style of an aspect's number: legible on every colour.
+pub(super) const NUMBER: &str =
+    "font-weight:600;paint-order:stroke;stroke:#fff;stroke-width:2.5px;stroke-linejoin:round";
 /// Height of the line that names a slice.
 const HEADING: f64 = 20.0;
 
-/// Figure 9: all modes (rows), W and Q for det A > 0 and det A < 0 (columns).
+/// Figure 9: a row a mode, W and Q for det A > 0 and for det A < 0; without Q two modes a row.
 pub fn figure_9(survey: &Survey<'_>) -> String {
     let modes = survey.robot.working_modes();
     let layout = Layout::new(survey, 225.0);
-    let size = ((2.0 * layout.pair() + 10.0).max(LEGEND), layout.height(modes.len()));
+    let size = layout.size(2 * modes.len());
     let spaces = if survey.joint_axes.is_some() { "W-aspects and Q-aspects" } else { "W-aspects" };
     let mut svg = open("figure9", size, &format!("{spaces} of {}", survey.robot.name), survey);
     for (k, &mode) in modes.iter().enumerate() {
         for (c, sign) in [DetSign::Positive, DetSign::Negative].into_iter().enumerate() {
-            class_panels(&mut svg, survey, mode, sign, &layout.charts(c, k));
+            class_panels(&mut svg, survey, mode, sign, &layout.charts(2 * k + c));
         }
     }
-    legend(&mut svg, survey, [LEFT, size.1 - 12.0]);
+    legend(&mut svg, survey, 1, [LEFT, size.1 - 12.0]);
     svg.finish()
 }
 
 /// One class: its W-aspects beside its Q-aspects.
 pub fn class(survey: &Survey<'_>, mode: WorkingMode, sign: DetSign) -> String {
     let layout = Layout::new(survey, 400.0);
-    let size = ((layout.pair() + 10.0).max(LEGEND), layout.height(1));
+    let size = layout.size(1);
     let title = format!("Aspects of mode {} with {}", signs(&mode.to_string()), sign_text(sign));
     let mut svg = open(&class_name(survey, mode, sign), size, &title, survey);
-    class_panels(&mut svg, survey, mode, sign, &layout.charts(0, 0));
-    legend(&mut svg, survey, [LEFT, size.1 - 12.0]);
+    class_panels(&mut svg, survey, mode, sign, &layout.charts(0));
+    let first = survey.of(mode, sign).and_then(|(map, _)| map.class.aspects.first());
+    legend(&mut svg, survey, first.map_or(1, |a| a.id), [LEFT, size.1 - 12.0]);
     svg.finish()
 }
 
@@ -71,7 +75,7 @@ fn open(id: &str, size: (f64, f64), title: &str, survey: &Survey<'_>) -> Svg {
     svg
 }
 
-/// Pairs of plots, W beside Q if there is one, in rows and columns.
+/// Pairs of plots, W beside Q if there is one, in rows of two pairs, or of four plots if they are single.
 struct Layout {
     w: Chart,
     q: Option<Chart>,
@@ -102,13 +106,21 @@ impl Layout {
         TOP + self.w.height.max(self.q.as_ref().map_or(0.0, |q| q.height)) + BELOW
     }
 
-    /// Height of a figure with so many rows, and a legend below.
-    fn height(&self, rows: usize) -> f64 {
-        self.top + rows as f64 * self.row() + 34.0
+    /// Pairs in a row.
+    fn columns(&self) -> usize {
+        if self.q.is_some() { 2 } else { 4 }
     }
 
-    /// The plots of W and Q in a place of the table.
-    fn charts(&self, column: usize, row: usize) -> (Chart, Option<Chart>) {
+    /// Width and height of a figure of so many pairs, and a legend below.
+    fn size(&self, pairs: usize) -> (f64, f64) {
+        let columns = self.columns().min(pairs);
+        let width = (columns as f64 * self.pair() + 10.0).max(LEGEND);
+        (width, self.top + pairs.div_ceil(columns) as f64 * self.row() + 34.0)
+    }
+
+    /// The plots of W and Q of a pair, by its number from 0.
+    fn charts(&self, number: usize) -> (Chart, Option<Chart>) {
+        let (column, row) = (number % self.columns(), number / self.columns());
         let left = self.left + column as f64 * self.pair();
         let top = self.top + TOP + row as f64 * self.row();
         let q_left = left + self.w.width + BESIDE + self.left;
@@ -140,7 +152,7 @@ fn class_panels(
     chart.frame(svg, &format!("Q {name}"));
 }
 
-fn label_colour(label: Label) -> Option<&'static str> {
+pub(super) fn label_colour(label: Label) -> Option<&'static str> {
     match label {
         Label::Outside => None,
         Label::Undecided => Some(UNDECIDED),
@@ -216,18 +228,24 @@ fn line_style(kind: Kind) -> &'static str {
 pub(super) fn number(svg: &mut Svg, chart: &Chart, aspects: &[Aspect], at: impl Fn(&Aspect) -> [f64; 2]) {
     for aspect in aspects {
         let [x, y] = chart.at(at(aspect));
-        let halo = "font-weight:600;paint-order:stroke;stroke:#fff;stroke-width:2.5px;stroke-linejoin:round";
         svg.circle([x, y], 1.8, &format!("fill:{INK};stroke:#fff;stroke-width:0.8"));
         let high = y < chart.top + 14.0;
         let far = x > chart.left + chart.width - 16.0;
         let (dx, anchor) = if far { (-4.0, Anchor::End) } else { (4.0, Anchor::Start) };
-        svg.text([x + dx, if high { y + 11.0 } else { y - 3.0 }], anchor, 11.0, halo, &aspect.id.to_string());
+        svg.text(
+            [x + dx, if high { y + 11.0 } else { y - 3.0 }],
+            anchor,
+            11.0,
+            NUMBER,
+            &aspect.id.to_string(),
+        );
     }
 }
 
-pub(super) fn legend(svg: &mut Svg, survey: &Survey<'_>, at: [f64; 2]) {
+/// The legend; `shown` is the number of an aspect in the figure.
+fn legend(svg: &mut Svg, survey: &Survey<'_>, shown: usize, at: [f64; 2]) {
     let limits = survey.curves.iter().any(|c| c.w.iter().any(|l| l.0 == Kind::Limit));
-    let mut x = swatch(svg, at, palette::aspect(1), "aspect, numbered at a sample");
+    let mut x = swatch(svg, at, palette::aspect(shown), "aspect, numbered at a sample");
     x = swatch(svg, [x, at[1]], UNDECIDED, "undecided cells");
     x = sample_line(svg, [x, at[1]], Kind::Parallel, "det A = 0 (parallel)");
     x = sample_line(svg, [x, at[1]], Kind::Serial, "det B = 0 (serial)");
@@ -287,7 +305,7 @@ type Row = (String, Option<DetSign>, Option<WorkingMode>);
 
 fn overlaid(survey: &Survey<'_>, id: &str, title: &str, rows: &[Row]) -> String {
     let layout = Layout::new(survey, 240.0);
-    let size = ((2.0 * layout.pair() + 10.0).max(LEGEND), layout.height(rows.len().div_ceil(2)));
+    let size = layout.size(rows.len());
     let mut svg = open(id, size, title, survey);
     let mut most = 1;
     for (k, (name, sign, mode)) in rows.iter().enumerate() {
@@ -297,7 +315,7 @@ fn overlaid(survey: &Survey<'_>, id: &str, title: &str, rows: &[Row]) -> String 
             };
             survey.classes.iter().filter(wanted)
         };
-        let (chart, q_chart) = layout.charts(k % 2, k / 2);
+        let (chart, q_chart) = layout.charts(k);
         let w = ("W", overlay(chosen().map(|c| &c.w)), Some(chart));
         let q = ("Q", overlay(chosen().filter_map(|c| c.q.as_ref())), q_chart);
         for (space, counts, chart) in [w, q] {

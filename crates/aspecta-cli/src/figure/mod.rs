@@ -7,6 +7,7 @@ pub mod axes;
 pub mod barrier;
 pub mod curves;
 pub mod image;
+mod label;
 pub mod level;
 pub mod maps;
 pub mod palette;

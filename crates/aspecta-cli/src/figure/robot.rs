@@ -1,6 +1,7 @@
 //! Drawings of the robot: one pose, and every working mode's posture (figure 8).
 
 use super::axes::{Axis, Chart};
+use super::label::Labels;
 use super::palette::INK;
 use super::skeleton::{LegShape, Point, Skeleton, minus, plus, times};
 use super::svg::{Anchor, Svg};
@@ -253,9 +254,14 @@ impl Drawing<'_> {
         svg.polyline(&corners, true, &style);
     }
 
+    /// Length of a frame's axes.
+    fn frame_length(&self) -> f64 {
+        let share = if self.names { 0.1 } else { 0.12 };
+        share * self.view.chart.x.span().min(self.view.chart.y.span())
+    }
+
     fn frame(&self, svg: &mut Svg, origin: Point, axes: [Point; 3], colour: &str) {
-        let length =
-            if self.names { 0.1 } else { 0.12 } * self.view.chart.x.span().min(self.view.chart.y.span());
+        let length = self.frame_length();
         let style = format!("stroke:{colour};stroke-width:1.2;fill:none");
         for (axis, name) in axes.into_iter().zip(["x", "y", "z"]).take(self.robot.platform.space()) {
             let (from, to) = (self.view.at(origin), self.view.at(plus(origin, times(length, axis))));
@@ -281,23 +287,38 @@ impl Drawing<'_> {
     fn label(&self, svg: &mut Svg) {
         let point = self.skeleton.is_point();
         let halo = "font-style:italic;paint-order:stroke;stroke:#fff;stroke-width:3px;stroke-linejoin:round";
-        let mut put = |p: Point, name: String, dx: f64, dy: f64| {
-            let at = self.view.at(p);
-            svg.text([at[0] + dx, at[1] + dy], Anchor::Start, 13.0, halo, &name);
+        let mut labels = Labels::among(self.lines().into_iter().map(|line| line.map(|p| self.view.at(p))));
+        let mut put = |p: Point, name: String| {
+            let [x, y] = labels.beside(self.view.at(p));
+            svg.text([x, y + 4.5], Anchor::Middle, 13.0, halo, &name);
         };
         for (k, leg) in self.skeleton.legs.iter().enumerate() {
             let index = subscript(k + 1);
-            put(leg.a, format!("A{index}"), 11.0, 15.0);
+            put(leg.a, format!("A{index}"));
             if let Some(b) = leg.b {
-                put(b, format!("B{index}"), 8.0, -7.0);
+                put(b, format!("B{index}"));
             }
             if !point {
-                put(leg.c, format!("C{index}"), 8.0, -7.0);
+                put(leg.c, format!("C{index}"));
             }
         }
         if point {
-            put(self.skeleton.legs[0].c, "C".into(), 8.0, -7.0);
+            put(self.skeleton.legs[0].c, "C".into());
         }
+    }
+
+    /// The straight lines between the points that have names, and those of the frames.
+    fn lines(&self) -> Vec<[Point; 2]> {
+        let legs = &self.skeleton.legs;
+        let mut lines: Vec<[Point; 2]> =
+            legs.iter().flat_map(|l| [[l.a, l.b.unwrap_or(l.a)], [l.b.unwrap_or(l.a), l.c]]).collect();
+        lines.extend((0..legs.len()).map(|k| [legs[k].c, legs[(k + 1) % legs.len()].c]));
+        let length = self.frame_length();
+        let base = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        lines.extend(base.map(|axis| [[0.0; 3], times(1.3 * length, axis)]));
+        let origin = self.skeleton.origin;
+        lines.extend(self.skeleton.axes.map(|axis| [origin, plus(origin, times(1.3 * length, axis))]));
+        lines
     }
 }
 

@@ -4,12 +4,12 @@ use super::axes::{Axis, Chart};
 use super::barrier::Kind;
 use super::curves::{Plane, Sheet};
 use super::level::Grid;
-use super::maps::{draw_lines, fill, sample_line, swatch};
+use super::maps::{draw_lines, fill, label_colour, sample_line, sign_text, swatch};
 use super::palette::{self, UNDECIDED};
 use super::raster::{Label, Raster};
 use super::robot::signs;
-use super::survey::{cell_raster, coordinate_name, pose_axes};
-use super::svg::{Number, Svg};
+use super::survey::{cell_raster, coordinate_name, pose_axis};
+use super::svg::{Anchor, Number, Svg};
 use aspecta::aspect::{AspectClass, Cell};
 use aspecta::kinematics::WorkingMode;
 use aspecta::robot::{Robot, Window};
@@ -38,7 +38,7 @@ pub struct ModeCells<'a> {
 ///
 /// `sides` are the numbers of finest cells along the axes.
 pub fn slices(robot: &Robot, window: &Window, sides: [usize; 3], mode: &ModeCells<'_>) -> String {
-    let axes = pose_axes(robot, window, [0, 1]);
+    let axes = [0, 1].map(|k| pose_axis(robot, window, k));
     let third = robot.platform.coordinates()[2];
     let (name, range) = (coordinate_name(third.name), window.ranges[2]);
     let unit = if third.angle { "rad" } else { &robot.length_unit };
@@ -47,7 +47,7 @@ pub fn slices(robot: &Robot, window: &Window, sides: [usize; 3], mode: &ModeCell
     let panel = (shape.margin().max(48.0), 26.0, SIDE, 40.0); // left, above, side, below
     let rows = SLICES.div_ceil(3);
     let step = (panel.0 + shape.width + 8.0, panel.1 + shape.height + panel.3);
-    let size = ((3.0 * step.0 + 10.0).max(700.0), rows as f64 * step.1 + 34.0);
+    let size = ((3.0 * step.0 + 10.0).max(700.0), rows as f64 * step.1 + 52.0);
     let text = signs(&mode.mode.to_string());
     let mut svg =
         Svg::new(&format!("slices-mf{}", mode.number), size.0, size.1, &format!("Slices of mode ({text})"));
@@ -57,11 +57,7 @@ pub fn slices(robot: &Robot, window: &Window, sides: [usize; 3], mode: &ModeCell
         let (left, top) = (panel.0 + (k % 3) as f64 * step.0, panel.1 + (k / 3) as f64 * step.1);
         let chart = Chart::fit(x, y, left, top, panel.2, panel.2);
         let raster = slice(mode, &axes, [sides[0].min(PIXELS), sides[1].min(PIXELS)], at);
-        fill(&mut svg, &chart, &raster, |label| match label {
-            Label::Outside => None,
-            Label::Undecided => Some(UNDECIDED),
-            Label::Aspect(id) => Some(palette::aspect(id)),
-        });
+        fill(&mut svg, &chart, &raster, label_colour);
         let plane = Plane { through: vec![at; 3], axes: [0, 1] };
         let sheet = Sheet { robot, mode: mode.mode, plane: &plane };
         let grid = Grid { x: axes[0].range, y: axes[1].range, n: GRID };
@@ -69,6 +65,7 @@ pub fn slices(robot: &Robot, window: &Window, sides: [usize; 3], mode: &ModeCell
         draw_lines(&mut svg, &chart, &lines, [false; 2]);
         chart.frame(&mut svg, &format!("({text}), {name} = {} {unit}", Number(at)).replace("-", "−"));
     }
+    aspects(&mut svg, mode, [panel.0, size.1 - 30.0], size.0);
     legend(&mut svg, [panel.0, size.1 - 12.0]);
     svg.finish()
 }
@@ -88,9 +85,20 @@ fn slice(mode: &ModeCells<'_>, axes: &[Axis; 2], size: [usize; 2], at: f64) -> R
     })
 }
 
+/// Names the colours of the mode's aspects, as many as there is room for.
+fn aspects(svg: &mut Svg, mode: &ModeCells<'_>, [mut x, y]: [f64; 2], width: f64) {
+    let all = mode.classes.iter().flat_map(|(class, _)| class.aspects.iter().map(|a| (a.id, class.det_a)));
+    for (id, sign) in all {
+        if x > width - 150.0 {
+            svg.text([x, y], Anchor::Start, 11.0, "", "…");
+            return;
+        }
+        x = swatch(svg, [x, y], palette::aspect(id), &format!("aspect {id}, {}", sign_text(sign)));
+    }
+}
+
 fn legend(svg: &mut Svg, at: [f64; 2]) {
-    let x = swatch(svg, at, palette::aspect(1), "one colour an aspect");
-    let x = swatch(svg, [x, at[1]], UNDECIDED, "undecided cells");
+    let x = swatch(svg, at, UNDECIDED, "undecided cells");
     let x = sample_line(svg, [x, at[1]], Kind::Parallel, "det A = 0");
     sample_line(svg, [x, at[1]], Kind::Serial, "det B = 0");
 }

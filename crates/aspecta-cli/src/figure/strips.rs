@@ -1,10 +1,10 @@
 //! Slices with one free coordinate: a strip for each class.
 
 use super::axes::{Axis, Chart};
-use super::maps::{sign_text, swatch};
+use super::maps::{NUMBER, sign_text, swatch};
 use super::palette::{self, UNDECIDED};
 use super::robot::signs;
-use super::survey::{coordinate_name, slice_name};
+use super::survey::{pose_axis, slice_name};
 use super::svg::{Anchor, Svg};
 use aspecta::aspect::{Analysis, AspectClass, Cell};
 
@@ -26,10 +26,7 @@ pub fn strips(analysis: &Analysis, cells: &[Vec<Cell>]) -> String {
     let slice = slice_name(&analysis.fixed).unwrap_or_default();
     let title = format!("W-aspects of {}, {slice}", analysis.robot.name);
     let mut svg = Svg::new("strips", LEFT + LENGTH + 20.0, TOP + height + 74.0, &title);
-    let c = analysis.robot.platform.coordinates()[axis];
-    let unit = if c.angle { "rad" } else { &analysis.robot.length_unit };
-    let label = format!("{} [{unit}]", coordinate_name(c.name));
-    let x = Axis { label, range: analysis.window.ranges[axis], angle: c.angle };
+    let x = pose_axis(&analysis.robot, &analysis.window, axis);
     let y = Axis { label: String::new(), range: (0.0, 1.0), angle: false };
     let chart = Chart { x, y, left: LEFT, top: TOP, width: LENGTH, height };
     for (k, (class, cells)) in analysis.classes.iter().zip(cells).enumerate() {
@@ -61,7 +58,6 @@ fn strip(svg: &mut Svg, chart: &Chart, class: &AspectClass, cells: &[Cell], top:
 fn number(svg: &mut Svg, chart: &Chart, class: &AspectClass, axis: usize, baseline: f64) {
     for aspect in &class.aspects {
         let x = chart.at([aspect.sample.pose[axis], 0.0])[0];
-        let halo = "font-weight:600;paint-order:stroke;stroke:#fff;stroke-width:2.5px;stroke-linejoin:round";
-        svg.text([x, baseline], Anchor::Middle, 11.0, halo, &aspect.id.to_string());
+        svg.text([x, baseline], Anchor::Middle, 11.0, NUMBER, &aspect.id.to_string());
     }
 }

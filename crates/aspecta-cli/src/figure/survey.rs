@@ -69,7 +69,7 @@ impl<'a> Survey<'a> {
         let varying = window.axes();
         let axes = [varying[0], varying[1]];
         let plane = Plane { through: window.ranges.iter().map(|r| r.0).collect(), axes };
-        let pose_axes = pose_axes(robot, window, axes);
+        let pose_axes = axes.map(|k| pose_axis(robot, window, k));
         let joint_axes = (robot.dof() == 2).then(|| joint_axes(robot, classes));
         let side = side.clamp(1, 1024);
         let sheet = |mode| Sheet { robot, mode, plane: &plane };
@@ -113,17 +113,11 @@ pub fn slice_name(fixed: &[Held]) -> Option<String> {
     (!parts.is_empty()).then(|| format!("slice {}", parts.join(", ")).replace('-', "−"))
 }
 
-/// The axes of a plane of poses.
-pub fn pose_axes(robot: &Robot, window: &Window, axes: [usize; 2]) -> [Axis; 2] {
-    axes.map(|k| {
-        let c = robot.platform.coordinates()[k];
-        let unit = if c.angle { "rad" } else { &robot.length_unit };
-        Axis {
-            label: format!("{} [{unit}]", coordinate_name(c.name)),
-            range: window.ranges[k],
-            angle: c.angle,
-        }
-    })
+/// The axis of a pose coordinate.
+pub fn pose_axis(robot: &Robot, window: &Window, k: usize) -> Axis {
+    let c = robot.platform.coordinates()[k];
+    let unit = if c.angle { "rad" } else { &robot.length_unit };
+    Axis { label: format!("{} [{unit}]", coordinate_name(c.name)), range: window.ranges[k], angle: c.angle }
 }
 
 /// A coordinate's name as it is written in formulas.
