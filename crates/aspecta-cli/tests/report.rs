@@ -4,7 +4,7 @@
 
 mod common;
 
-use aspecta::aspect::Analysis;
+use aspecta::aspect::{Analysis, Cell, Place};
 use common::{analysis, five_bar, slice, three_rrr};
 use std::collections::BTreeMap;
 use std::fs;
@@ -71,9 +71,9 @@ fn doubts() {
     let (dir, _keep) = directory("five-bar-6");
     let page = checked(&analysis, &dir, &["counts"], 3_000_000);
     let (_, table) = page.split_once("<table id=\"doubts\">").unwrap();
-    let (table, _) = table.split_once("</table>").unwrap();
+    let table = table.split_once("</table>").unwrap().0.replace('\u{a0}', " ");
     assert_eq!(analysis.doubts.len(), 8);
-    assert_eq!(table.matches("whether a whole aspect hides").count(), 8);
+    assert_eq!(table.matches("may hide a whole aspect").count(), 8);
     // The largest: mode +−, det A < 0.
     assert!(table.contains("x: 3.70 … 3.97 unit") && table.contains("y: −11.78 … −11.38 unit"), "{table}");
     assert!(table.find("x: 3.70") < table.find("x: −2.67"), "{table}");
@@ -82,16 +82,16 @@ fn doubts() {
 /// Of a folded leg the page gives its own coordinates, and beyond the rows listed it says how many there are.
 #[test]
 fn doubts_about_folded_legs() {
-    let mut analysis = analysis(&three_rrr(), 4);
+    let mut analysis = analysis(&three_rrr(), 5);
     let doubt = &mut analysis.doubts[0];
     (doubt.fold, doubt.measure) = (Some(2), 1e9);
     doubt.place = vec![(0.5, 0.75), (-0.125, 0.125), (1.0, 1.5)];
-    let (dir, _keep) = directory("3-rrr-4");
-    let page = checked(&analysis, &dir, &["counts"], 15_000_000);
+    let (dir, _keep) = directory("3-rrr-5");
+    let page = checked(&analysis, &dir, &["counts"], 15_000_000).replace('\u{a0}', " ");
     for text in ["leg 2 folded", "q2: 0.50 … 0.75 rad", "p: −0.12 … 0.12", "φ: 1.00 … 1.50 rad"] {
-        assert!(page.contains(&format!(">{text}</span>")), "{text}");
+        assert!(page.contains(text), "{text}");
     }
-    assert!(page.contains(&format!("… and {} more", analysis.doubts.len() - 16)));
+    assert!(page.contains(&format!("… and {} more", analysis.doubts.len() - 10)));
 }
 
 #[test]
@@ -105,6 +105,27 @@ fn the_three_rrr() {
     assert_eq!(volume["size"], serde_json::json!([32, 32, 32]));
     assert_eq!(volume["classes"].as_array().unwrap().len(), analysis.classes.len());
     assert_eq!(volume["numbers"].as_array().unwrap().len(), 8);
+}
+
+/// White says: in none of the aspects. So all poses that are undecided are in cells that are drawn, those too that only a
+/// folded leg's own coordinates describe.
+#[test]
+fn what_is_undecided_is_not_white() {
+    let analysis = analysis(&three_rrr(), 6);
+    let mut of_folds = 0;
+    for class in 0..analysis.classes.len() {
+        let (drawn, labelled) = (aspecta_cli::report::cells(&analysis, class), analysis.cells(class));
+        // About the poses with C1 on A1, where the first leg folds.
+        for k in 0..500 {
+            let [i, j, l] = [k % 8, k / 8 % 8, k / 64].map(f64::from);
+            let pose = [0.601 * i - 12.0, 0.607 * j - 12.0, 0.31 * l - 1.2];
+            let holds = |c: &Cell| (0..3).all(|a| c.lo[a] <= pose[a] && pose[a] < c.hi[a]);
+            let place = analysis.locate(class, &pose);
+            assert_eq!(drawn.iter().any(holds), place != Place::Outside, "{pose:?}");
+            of_folds += usize::from(place == Place::Undecided && !labelled.iter().any(holds));
+        }
+    }
+    assert!(of_folds > 100, "{of_folds} poses: the test tests nothing");
 }
 
 const FLAT: [&str; 7] = ["robot", "modes", "counts", "maps", "earlier", "certified", "run"];

@@ -7,7 +7,7 @@ use aspecta::aspect::{Analysis, Doubt, DoubtKind};
 use maud::{Markup, html};
 
 /// Doubts listed; the rest is in the JSON.
-const LISTED: usize = 16;
+const LISTED: usize = 10;
 
 /// A table of what keeps the bounds apart; nothing if they meet.
 pub fn table(analysis: &Analysis) -> Markup {
@@ -25,8 +25,8 @@ pub fn table(analysis: &Analysis) -> Markup {
                  coordinates: q" sub { "j" } " and the direction (p, w) of its rod."
             }
             thead { tr {
-                th scope="col" { "mode" } th scope="col" { "det A" } th scope="col" { "what is not decided" }
-                th scope="col" { "boxes" } th scope="col" { (analysis.measure.name) " [" (measure_unit(analysis)) "]" }
+                th scope="col" { "mode" } th scope="col" { "det A" } th scope="col" { "undecided boxes" }
+                th scope="col" { "their number" } th scope="col" { (analysis.measure.name) " [" (measure_unit(analysis)) "]" }
                 th scope="col" { "for example in" } th scope="col" { "undecided there" }
             } }
             tbody { @for doubt in doubts.iter().take(LISTED) { (row(analysis, doubt)) } }
@@ -39,8 +39,8 @@ pub fn table(analysis: &Analysis) -> Markup {
 
 fn row(analysis: &Analysis, doubt: &Doubt) -> Markup {
     let what = match doubt.kind {
-        DoubtKind::Hidden => "whether a whole aspect hides in these boxes, so there is no upper bound",
-        DoubtKind::Unjoined => "whether the pieces at these boxes are one aspect or several",
+        DoubtKind::Hidden => "may hide a whole aspect, so there is no upper bound",
+        DoubtKind::Unjoined => "may join pieces into one aspect, or part them",
     };
     html! { tr {
         th.name scope="row" { (mode_name(analysis, doubt.mode)) }
@@ -49,18 +49,18 @@ fn row(analysis: &Analysis, doubt: &Doubt) -> Markup {
         td.number { (doubt.boxes) }
         td.number { (number(doubt.measure)) }
         td {
-            @if let Some(leg) = doubt.fold { span.range { "leg " (leg) " folded" } }
-            @for c in place(&analysis.robot, doubt) { span.range { (range(&c)) } }
+            @if let Some(leg) = doubt.fold { "leg " (leg) " folded, " }
+            (place(&analysis.robot, doubt).iter().map(range).collect::<Vec<_>>().join(", "))
         }
         td { (doubt.undecided.join(", ")) }
     } }
 }
 
-/// `x: 5.123456 … 5.123489 mm`: as many digits as tell the ends apart.
+/// `x: 5.123456 … 5.123489 mm`, unbreakable: as many digits as tell the ends apart.
 fn range(c: &Coordinate) -> String {
     let width = c.range.1 - c.range.0;
     let digits = (1.0 - width.log10().floor()).clamp(0.0, 17.0) as usize;
     let [low, high] = [c.range.0, c.range.1].map(|x| format!("{x:.digits$}").replace('-', "−"));
-    let unit = c.unit.as_ref().map_or(String::new(), |unit| format!(" {unit}"));
-    format!("{}: {low} … {high}{unit}", coordinate_name(&c.name))
+    let unit = c.unit.as_ref().map_or(String::new(), |unit| format!("\u{a0}{unit}"));
+    format!("{}:\u{a0}{low}\u{a0}…\u{a0}{high}{unit}", coordinate_name(&c.name))
 }

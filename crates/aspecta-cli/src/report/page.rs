@@ -171,7 +171,7 @@ fn maps_section(analysis: &Analysis, flat: &FlatFigures) -> Markup {
             h2 { @if has_q(analysis) { "W-aspects and Q-aspects" } @else { "W-aspects" } }
             (figure(&flat.overview, html! {
                 "All aspects" @if analysis.fixed.is_empty() { " (figure 9 of the paper)" }
-                ": one row a working mode, det A > 0 on the left and det A < 0 on the right"
+                ": of each working mode det A > 0 on the left and det A < 0 on the right of it"
                 @if has_q(analysis) { "; in each pair the poses (W) and their joint vectors (Q). A colour and number is one aspect, the same in W and \
                  Q. Q wraps round at ±π." } @else { ". A colour and number is one aspect." }
             }))
