@@ -7,8 +7,7 @@ mod volume;
 
 use crate::figure::{self, maps, slices, strips, survey::Survey};
 use crate::file::put;
-use aspecta::aspect::{Analysis, AspectClass, Cell, Place, Sample};
-use aspecta::paving::Mark;
+use aspecta::aspect::{Analysis, AspectClass, Cell, Sample};
 use rayon::prelude::*;
 use std::fs;
 use std::io;
@@ -45,7 +44,7 @@ struct FlatFigures {
 /// # Errors
 /// Those of the file system.
 pub fn write(analysis: &Analysis, dir: &Path) -> io::Result<Vec<PathBuf>> {
-    let cells: Vec<Vec<Cell>> = (0..analysis.classes.len()).map(|k| cells(analysis, k)).collect();
+    let cells: Vec<Vec<Cell>> = (0..analysis.classes.len()).map(|k| analysis.cells(k)).collect();
     let figures = draw(analysis, &cells);
     let volume = if analysis.window.axes().len() == 3 { Some(volume::json(analysis, &cells)?) } else { None };
     let folder = dir.join("figures");
@@ -55,21 +54,6 @@ pub fn write(analysis: &Analysis, dir: &Path) -> io::Result<Vec<PathBuf>> {
         written.push(put(&folder, &format!("{name}.svg"), svg)?);
     }
     Ok(written)
-}
-
-/// The cells of a class that are not outside it, those that a fold's chart covers among them: in the pose's coordinates these are
-/// undecided, unless they lie in an aspect.
-pub fn cells(analysis: &Analysis, class: usize) -> Vec<Cell> {
-    let mut cells = analysis.cells(class);
-    let paving = &analysis.paving;
-    for (at, node) in (0..).zip(&paving.nodes) {
-        let open = node.covered && node.first_child == 0 && node.of_classes(1 << class) != Mark::Outside;
-        if open && analysis.locate(class, &paving.centre(at)) == Place::Undecided {
-            let (lo, hi) = paving.bounds(at);
-            cells.push(Cell { lo, hi, aspect: None });
-        }
-    }
-    cells
 }
 
 impl Figures {

@@ -1,7 +1,7 @@
 //! The main job: a robot in, its working modes and generalized aspects out.
 
 use super::ascent::Class;
-use super::atlas::{Atlas, Leaf};
+use super::atlas::Atlas;
 use super::components::{Components, Piece};
 use super::count::{Counted, Group};
 use super::doubt::doubts;
@@ -106,7 +106,7 @@ pub fn analyze(robot: &Robot, options: &Options, control: &Control<'_>) -> Resul
         robot: robot.clone(),
         window,
         labels,
-        paving: atlas.sheets.into_iter().next().unwrap_or_else(|| unreachable!("sheet 0 is the pose's")),
+        paving: { atlas.sheets }.swap_remove(0),
     })
 }
 
@@ -127,9 +127,17 @@ impl Found {
         for (k, group) in groups.iter().enumerate() {
             group.pieces.iter().for_each(|&piece| label_of_piece[piece as usize] = k as u32 + 1);
         }
-        let label = |i: usize| components.piece_of[i].map_or(0, |piece| label_of_piece[piece as usize]);
-        let in_poses = |(i, &(sheet, node)): (usize, &Leaf)| (sheet == 0).then(|| (node, label(i)));
-        let labels = components.boxes.iter().enumerate().filter_map(in_poses).collect();
+        let paving = &atlas.sheets[0];
+        let mut labels = Vec::new();
+        paving.boxes_of(&|node: &Node| node.of_classes(class.bit), &mut |node| {
+            labels.push((
+                node,
+                components.piece_at((0, node)).map_or(0, |piece| label_of_piece[piece as usize]),
+            ));
+        });
+        labels.sort_unstable();
+        let undecided =
+            labels.iter().filter(|l| l.1 == 0).map(|l| paving.measure(paving.depth_of(l.0))).sum();
         let aspects: Vec<Aspect> = groups.iter().map(|g| aspect(atlas, class, components, g)).collect();
         let class = AspectClass {
             mode: class.mode,
@@ -137,7 +145,7 @@ impl Found {
             low: aspects.len(),
             high: counted.high(),
             measure: aspects.iter().map(|a| a.measure).sum(),
-            undecided: components.undecided,
+            undecided,
             aspects,
         };
         Self { class, labels }

@@ -134,27 +134,25 @@ impl<'a> Atlas<'a> {
         self.sheets[sheet].depth_of(node)
     }
 
-    /// Splits and searches boxes until no aspect can hide in any, as far as `limits` allow; `fresh` are the leaves not searched yet.
-    /// Returns whether the limits allowed all of it.
+    /// Splits and searches boxes until no aspect can hide in any or they are as small as they may be; `fresh` are the leaves not
+    /// searched yet. False if boxes or time ended it.
     pub(super) fn uncover(
         &mut self,
         mut fresh: Vec<Leaf>,
         limits: &Limits<'_>,
         control: &Control<'_>,
     ) -> bool {
-        let mut complete = true;
         loop {
             let worth = self.is_worth_searching(&fresh);
             let open = if worth { self.survey(&fresh, limits, control) } else { fresh };
-            let (split, mut deepest): (Vec<Leaf>, Vec<Leaf>) =
+            let (split, deepest): (Vec<Leaf>, Vec<Leaf>) =
                 open.into_iter().partition(|&leaf| self.depth_of(leaf) < limits.depth);
             if !worth {
                 // What cannot be split is searched all the same.
-                deepest = self.survey(&deepest, limits, control);
+                self.survey(&deepest, limits, control);
             }
-            complete &= deepest.is_empty();
             if split.is_empty() {
-                return complete;
+                return true;
             }
             if split.len() > limits.affordable(self) || limits.is_over(control) {
                 return false;

@@ -49,8 +49,6 @@ pub(super) struct Components {
     pub component_of: Vec<Option<u32>>,
     /// The pieces, in the order of their first box.
     pub pieces: Vec<Piece>,
-    /// Measure of the undecided boxes in pose coordinates.
-    pub undecided: f64,
 }
 
 impl Components {
@@ -109,13 +107,8 @@ impl Components {
         seams(robot, sheets, &kept, &mut join);
         let mut root = |i: u32| (!is_covered(node(boxes[i as usize]))).then(|| all.root(i));
         let component_of = (0..boxes.len() as u32).map(&mut root).collect();
-        let mut components = Self {
-            piece_of: vec![None; boxes.len()],
-            component_of,
-            pieces: Vec::new(),
-            undecided: 0.0,
-            boxes,
-        };
+        let mut components =
+            Self { piece_of: vec![None; boxes.len()], component_of, pieces: Vec::new(), boxes };
         components.gather(sheets, &is_inside, &mut inner);
         components
     }
@@ -124,9 +117,7 @@ impl Components {
         let mut piece_at_root = vec![u32::MAX; self.boxes.len()];
         for i in 0..self.boxes.len() {
             let (s, at) = self.boxes[i];
-            let measure = sheets[s].measure(sheets[s].depth_of(at));
             if !is_inside((s, at)) {
-                self.undecided += if s == 0 { measure } else { 0.0 };
                 continue;
             }
             let Some(component) = self.component_of[i] else { continue };

@@ -3,7 +3,7 @@
 use super::measure::{Held, Measure};
 use crate::certificate::Certificate;
 use crate::kinematics::WorkingMode;
-use crate::paving::{BoxOf, Mark, Paving, Stop};
+use crate::paving::{BoxOf, Paving, Stop};
 use crate::robot::{Robot, Window};
 use serde::Serialize;
 
@@ -79,19 +79,12 @@ impl Analysis {
     /// boundary of two cells may get the answer of either; one off the slice is outside.
     pub fn locate(&self, class: usize, pose: &[f64]) -> Place {
         let pose: Vec<f64> = pose.iter().enumerate().map(|(k, &x)| self.window.turned_in(k, x)).collect();
-        // A class is labelled as it was when its count was settled; boxes may have been split since, for the others.
         let labels = &self.labels[class];
         let label = |node: u32| labels.binary_search_by_key(&node, |l| l.0).ok().map(|k| labels[k].1);
-        let Some((node, _)) = self.paving.descend_to(&pose, &mut |node| label(node).is_some()) else {
-            return Place::Outside;
-        };
-        match label(node) {
-            Some(id) if id > 0 => Place::Inside(id as usize),
-            Some(_) => Place::Undecided,
-            // Boxes that the chart of a fold covers have no label where the class is undecided.
-            None if self.paving.nodes[node as usize].of_classes(1 << class) != Mark::Outside => {
-                Place::Undecided
-            }
+        let found = self.paving.descend_to(&pose, &mut |node| label(node).is_some());
+        match found.and_then(|(node, _)| label(node)) {
+            Some(0) => Place::Undecided,
+            Some(id) => Place::Inside(id as usize),
             None => Place::Outside,
         }
     }

@@ -35,91 +35,97 @@ impl<'a> Search<'a> {
             boxes: budget.boxes.unwrap_or(MAX_BOXES).min(MAX_BOXES),
             late: &late,
         };
-        let mut atlas = Atlas::new(robot, window, modes, &budget.start(window), control);
-        let classes = modes.iter().enumerate().flat_map(|(m, &mode)| {
-            [(1, 1 << (2 * m)), (-1, 2 << (2 * m))].map(|(sign, bit)| Class { mode, sign, bit })
-        });
-        let mut complete = atlas.sheets[0].stop == Stop::Resolution;
-        let leaves = atlas.undecided_leaves();
-        complete &= atlas.uncover(leaves, &limits, control);
-        let mut counted: Vec<(Class, Counted)> = classes
-            .collect::<Vec<_>>()
-            .into_par_iter()
-            .map(|class| (class, count(&atlas, class, control)))
-            .collect();
-        loop {
-            for leaf in
-                counted.iter().flat_map(|(class, c)| c.summitless.iter().map(|&leaf| (leaf, class.bit)))
-            {
-                atlas.remember(leaf.0, leaf.1);
-            }
-            let gather = |boxes: fn(&Counted) -> &[Leaf]| -> Vec<Leaf> {
-                let all: BTreeSet<Leaf> =
-                    counted.iter().flat_map(|(_, c)| boxes(c).iter().copied()).collect();
-                all.into_iter().filter(|&leaf| atlas.depth_of(leaf) < limits.depth).collect()
-            };
-            let ways = gather(|c| &c.between.ways);
-            let mut split = gather(|c| &c.between.front);
-            split.extend(
-                ways.iter().filter(|leaf| split.binary_search(leaf).is_err()).copied().collect::<Vec<_>>(),
-            );
-            split.sort_unstable();
-            if split.is_empty() || split.len() > limits.affordable(&atlas) || limits.is_over(control) {
-                complete &= counted.iter().all(|(_, c)| c.is_exact());
-                break;
-            }
-            let exact = counted.iter().filter(|(_, c)| c.is_exact()).count() as u64;
-            (control.progress)(Progress {
-                stage: "joining pieces",
-                done: exact,
-                total: counted.len() as u64,
-            });
-            let mut fresh = atlas.split(&split, control);
-            // Ways are few: they are followed several levels down before the pieces are counted again.
-            let torn =
-                counted.iter().filter(|(_, c)| !c.is_exact()).fold(0, |torn, (class, _)| torn | class.bit);
-            let mut tips = ways;
-            for _ in 0..AHEAD {
-                tips = atlas.undecided_children(&tips, torn);
-                if tips.len() > limits.affordable(&atlas) {
-                    break;
-                }
-                fresh.extend(atlas.split(&tips, control));
-            }
-            complete &= atlas.uncover(fresh, &limits, control);
-            counted = counted
-                .into_par_iter()
-                .map(
-                    |(class, old)| {
-                        if old.is_exact() { (class, old) } else { (class, count(&atlas, class, control)) }
-                    },
-                )
-                .collect();
-        }
-        let even = atlas.even_out(budget.even(window), &limits, control);
-        complete &= even.reached;
+        let atlas = Atlas::new(robot, window, modes, &budget.start(window), control);
+        let paved = atlas.sheets[0].stop;
+        let mut search = Self { atlas, counted: Vec::new(), stop: paved };
+        let leaves = search.atlas.undecided_leaves();
+        let mut afforded = search.atlas.uncover(leaves, &limits, control);
+        search.count_all(modes, control);
+        afforded &= search.join(&limits, control);
+        let even = search.atlas.even_out(budget.even(window), &limits, control);
+        afforded &= even.reached;
         if even.changed {
-            counted = counted
-                .into_par_iter()
-                .map(|(class, old)| {
-                    let new = count(&atlas, class, control);
-                    (class, if old.is_exact() && !new.is_exact() { old } else { new })
-                })
-                .collect();
-            for leaf in
-                counted.iter().flat_map(|(class, c)| c.summitless.iter().map(|&leaf| (leaf, class.bit)))
-            {
-                atlas.remember(leaf.0, leaf.1);
-            }
+            search.recount(control, |_| true);
         }
-        let stop = match () {
-            () if counted.iter().all(|(_, c)| c.is_exact()) => Stop::Exact,
+        search.stop = match () {
+            () if search.counted.iter().all(|(_, c)| c.is_exact()) => Stop::Exact,
             () if control.is_cancelled() => Stop::Cancelled,
-            () if late() || atlas.sheets[0].stop == Stop::Time => Stop::Time,
-            () if complete || limits.depth < DEEPEST => Stop::Resolution,
+            () if late() || paved == Stop::Time => Stop::Time,
+            () if afforded && paved == Stop::Resolution => Stop::Resolution,
             () => Stop::Boxes,
         };
-        Self { atlas, counted, stop }
+        search
+    }
+
+    fn count_all(&mut self, modes: &[WorkingMode], control: &Control<'_>) {
+        let signs = |(m, &mode): (usize, &WorkingMode)| {
+            [(1, 1 << (2 * m)), (-1, 2 << (2 * m))].map(|(sign, bit)| Class { mode, sign, bit })
+        };
+        let classes: Vec<Class> = modes.iter().enumerate().flat_map(signs).collect();
+        let atlas = &self.atlas;
+        self.counted = classes.into_par_iter().map(|class| (class, count(atlas, class, control))).collect();
+        self.remember();
+    }
+
+    /// Counts those that are `due` once more. What was exact stays so.
+    fn recount(&mut self, control: &Control<'_>, due: impl Fn(&Counted) -> bool + Sync) {
+        let atlas = &self.atlas;
+        let again = |(class, old): &mut (Class, Counted)| {
+            if due(old) {
+                let new = count(atlas, *class, control);
+                if new.is_exact() || !old.is_exact() {
+                    *old = new;
+                }
+            }
+        };
+        self.counted.par_iter_mut().for_each(again);
+        self.remember();
+    }
+
+    /// Has the atlas remember which boxes the counts found to have no summit.
+    fn remember(&mut self) {
+        for (class, counted) in &self.counted {
+            counted.summitless.iter().for_each(|&leaf| self.atlas.remember(leaf, class.bit));
+        }
+    }
+
+    /// Splits what lies between pieces not proved to be one, until the bounds meet or the limits end it: false if boxes or time do.
+    fn join(&mut self, limits: &Limits<'_>, control: &Control<'_>) -> bool {
+        let mut afforded = true;
+        loop {
+            let ways = self.gather(limits, |c| &c.between.ways);
+            let mut split = self.gather(limits, |c| &c.between.front);
+            split.extend(ways.iter().copied());
+            if split.is_empty() {
+                return afforded;
+            }
+            if split.len() > limits.affordable(&self.atlas) || limits.is_over(control) {
+                return false;
+            }
+            let open = |(_, c): &&(Class, Counted)| !c.is_exact();
+            let (total, left) = (self.counted.len() as u64, self.counted.iter().filter(open).count() as u64);
+            (control.progress)(Progress { stage: "joining pieces", done: total - left, total });
+            let split: Vec<Leaf> = split.into_iter().collect();
+            let mut fresh = self.atlas.split(&split, control);
+            // Ways are few: they are followed several levels down before the pieces are counted again.
+            let torn = self.counted.iter().filter(open).fold(0, |torn, (class, _)| torn | class.bit);
+            let mut tips: Vec<Leaf> = ways.into_iter().collect();
+            for _ in 0..AHEAD {
+                tips = self.atlas.undecided_children(&tips, torn);
+                if tips.len() > limits.affordable(&self.atlas) {
+                    break;
+                }
+                fresh.extend(self.atlas.split(&tips, control));
+            }
+            afforded &= self.atlas.uncover(fresh, limits, control);
+            self.recount(control, |counted| !counted.is_exact());
+        }
+    }
+
+    /// Boxes of all classes that may still be split.
+    fn gather(&self, limits: &Limits<'_>, boxes: impl Fn(&Counted) -> &[Leaf]) -> BTreeSet<Leaf> {
+        let all = self.counted.iter().flat_map(|(_, counted)| boxes(counted).iter().copied());
+        all.filter(|&leaf| self.atlas.depth_of(leaf) < limits.depth).collect()
     }
 }
 

@@ -50,11 +50,6 @@ impl Budget {
     pub fn even(&self, window: &Window) -> u32 {
         self.finest(window).unwrap_or([16, 11, 7][window.axes().len().clamp(1, 3) - 1])
     }
-
-    /// The depth of an even paving: that of [`Budget::finest`], or 16 on a line, 11 in the plane and 8 in space.
-    pub(super) fn depth_in(&self, window: &Window) -> u32 {
-        self.finest(window).unwrap_or([16, 11, 8][window.axes().len().clamp(1, 3) - 1])
-    }
 }
 
 /// How far the work has come.

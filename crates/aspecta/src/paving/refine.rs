@@ -52,7 +52,7 @@ impl Paving {
             deadline.is_some_and(|(start, seconds)| start.elapsed().as_secs_f64() > PAVING_SHARE * seconds)
         };
         let allowed = budget.boxes.unwrap_or(MAX_BOXES).min(MAX_BOXES);
-        let depths = budget.depth_in(window);
+        let depths = budget.even(window);
         let mut level = 0..1;
         for depth in 1..=depths {
             let mut parents: Vec<u32> = level.filter(|&i| paving.nodes[i as usize].undecided != 0).collect();
