@@ -8,6 +8,7 @@
 
 pub mod aspect;
 pub mod certificate;
+pub mod domain;
 pub mod kinematics;
 pub mod motion;
 pub mod num;

@@ -1,0 +1,1 @@
+//! Section 4 of the paper: the largest domains of the workspace in which a joint vector means one pose.
