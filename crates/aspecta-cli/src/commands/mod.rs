@@ -5,6 +5,7 @@ mod budget;
 mod check;
 mod check_path;
 mod completions;
+mod domains;
 mod doubts;
 mod fix;
 mod fk;
@@ -27,6 +28,8 @@ use std::io::Write;
 pub enum Command {
     /// Working modes and generalized aspects of a robot, with certified bounds on their number
     Analyze(analyze::Analyze),
+    /// Basic regions and uniqueness domains of an aspect: where a joint vector means one pose
+    Domains(domains::Domains),
     /// Check a certificate of the number of aspects, independently of what computed it
     Verify(verify::Verify),
     /// All inverse solutions of a pose, one per working mode
@@ -52,6 +55,7 @@ impl Command {
     pub fn run(self, out: &mut dyn Write) -> Result<Answer, Failure> {
         match self {
             Self::Analyze(command) => command.run(out),
+            Self::Domains(command) => command.run(out),
             Self::Verify(command) => command.run(out),
             Self::Ik(command) => command.run(out),
             Self::Fk(command) => command.run(out),

@@ -92,25 +92,39 @@ fn climb<const D: usize, const N: usize>(
     let mut climb = Climb::default();
     let (0, largest) = components.pieces[from as usize].largest else { return climb };
     let start = paving.centre(largest);
-    let mut x = SVector::<f64, N>::from_column_slice(&start);
-    let free: [bool; N] = std::array::from_fn(|k| paving.axes.contains(&k));
-    let mut path = vec![start];
-    for _ in 0..STEPS {
-        let Some((height, direction)) = uphill::<D, N>(robot, class, &x, &free) else { break };
-        let Some(next) = step::<D, N>(robot, paving, class, &x, height, &direction) else { break };
-        x = next;
-        path.push(x.as_slice().to_vec());
-        let here = paving.find(&|node| node.of_classes(class.bit), x.as_slice());
+    let mut path = vec![start.clone()];
+    ascend::<D, N>(robot, paving, class, &start, &mut |pose| {
+        path.push(pose.to_vec());
+        let here = paving.find(&|node| node.of_classes(class.bit), pose);
         let piece = here.filter(|(_, surely)| *surely).and_then(|(node, _)| components.piece_at((0, node)));
         if let Some(piece) = piece.filter(|&piece| piece != from) {
             climb.met.push(piece);
             climb.path.clone_from(&path);
         }
-        if piece == Some(goal) {
+        piece == Some(goal)
+    });
+    climb
+}
+
+/// Climbs from `start`, which must lie in the class, until `reached` says so of a pose, to a maximum of U, or to where no step can
+/// be proved any more.
+pub(super) fn ascend<const D: usize, const N: usize>(
+    robot: &Robot,
+    paving: &Paving,
+    class: Class,
+    start: &[f64],
+    reached: &mut impl FnMut(&[f64]) -> bool,
+) {
+    let mut x = SVector::<f64, N>::from_column_slice(start);
+    let free: [bool; N] = std::array::from_fn(|k| paving.axes.contains(&k));
+    for _ in 0..STEPS {
+        let Some((height, direction)) = uphill::<D, N>(robot, class, &x, &free) else { break };
+        let Some(next) = step::<D, N>(robot, paving, class, &x, height, &direction) else { break };
+        x = next;
+        if reached(x.as_slice()) {
             break;
         }
     }
-    climb
 }
 
 /// The longest certified step along `direction`, halved up to 30 times, on which U grows.

@@ -23,6 +23,8 @@ mod scale;
 mod search;
 mod summit;
 
+pub(crate) use components::UnionFind;
+
 pub use analyze::{AnalysisError, Options, analyze};
 pub use measure::{Held, Measure, Unit};
 pub use result::{

@@ -1,8 +1,9 @@
 //! What an analysis returns: plain values that know the robot they came from.
 
+use super::ascent::{Class, ascend};
 use super::measure::{Held, Measure};
 use crate::certificate::Certificate;
-use crate::kinematics::WorkingMode;
+use crate::kinematics::{WorkingMode, for_platform};
 use crate::paving::{BoxOf, Paving, Stop};
 use crate::robot::{Robot, Window};
 use serde::Serialize;
@@ -88,6 +89,44 @@ impl Analysis {
             None => Place::Outside,
         }
     }
+}
+
+impl Analysis {
+    /// The class (index into [`Analysis::classes`]) and the entry of the aspect with this [`Aspect::id`].
+    pub fn aspect(&self, id: usize) -> Option<(usize, &Aspect)> {
+        let found = |(k, class): (usize, &'_ AspectClass)| {
+            class.aspects.iter().position(|a| a.id == id).map(|i| (k, i))
+        };
+        let (class, i) = self.classes.iter().enumerate().find_map(found)?;
+        Some((class, &self.classes[class].aspects[i]))
+    }
+
+    /// The [`Aspect::id`] of the aspect that a pose of class `class` lies in; `None` if the pose is not in the class, or lies in
+    /// an undecided cell from which no certified ascent leads into a cell of an aspect. Certified where `Some`.
+    pub fn aspect_at(&self, class: usize, pose: &[f64]) -> Option<usize> {
+        match self.locate(class, pose) {
+            Place::Inside(id) => Some(id),
+            Place::Outside => None,
+            Place::Undecided => for_platform!(self.robot.platform, aspect_uphill(self, class, pose)),
+        }
+    }
+}
+
+fn aspect_uphill<const D: usize, const N: usize>(
+    analysis: &Analysis,
+    class: usize,
+    pose: &[f64],
+) -> Option<usize> {
+    let AspectClass { mode, det_a, .. } = analysis.classes[class];
+    let seen = Class { mode, sign: det_a.factor(), bit: 1 << class };
+    let mut found = None;
+    ascend::<D, N>(&analysis.robot, &analysis.paving, seen, pose, &mut |pose| {
+        if let Place::Inside(id) = analysis.locate(class, pose) {
+            found = Some(id);
+        }
+        found.is_some()
+    });
+    found
 }
 
 /// Proved bounds on a number of aspects.

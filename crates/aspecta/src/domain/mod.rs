@@ -1,1 +1,22 @@
 //! Section 4 of the paper: the largest domains of the workspace in which a joint vector means one pose.
+//!
+//! An aspect may hold several poses of one joint vector. Its characteristic surfaces (Def. 9) are where such a pose enters or leaves
+//! it; they cut it into basic regions (Def. 10), on each of which the number of direct solutions in the aspect is constant; the
+//! images of two basic regions, their basic components (Def. 11), coincide or are disjoint. Unions of adjacent regions with disjoint images are the
+//! uniqueness domains (Theorem 3).
+//!
+//! All of this is numerical: the regions are sets of nodes of a grid, true to a cell.
+
+mod grid;
+mod images;
+mod partition;
+mod result;
+mod sheet;
+mod uniqueness;
+
+pub use partition::{OUTSIDE, Partition};
+pub use result::{
+    Agreement, BasicRegion, Coincidence, Disagreement, DomainError, DomainOptions, Domains, UniquenessDomain,
+    Violation, domains,
+};
+pub use sheet::Sheet;

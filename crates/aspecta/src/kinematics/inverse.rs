@@ -1,6 +1,6 @@
 //! The inverse geometric model: all joint vectors of a pose, one per working mode (5).
 
-use super::leg::{Drive, drive, eliminate};
+use super::leg::{drive, eliminate};
 use super::limits::{LegAt, margin};
 use super::placement::Placement;
 use super::{KinematicsError, Solution, WorkingMode, for_platform};
@@ -46,10 +46,7 @@ fn legs_at<const D: usize, const N: usize>(robot: &Robot, pose: &[f64]) -> Vec<L
                 continue;
             }
             let sh = s * closure.reach.sqrt();
-            solutions.q[k] = Some(match drive(&leg.actuator, &span, &closure, sh) {
-                Drive::Angle { cos, sin, .. } => sin.atan2(cos),
-                Drive::Length(q) => q,
-            });
+            solutions.q[k] = Some(drive(&leg.actuator, &span, &closure, sh).value());
             solutions.within_limits[k] =
                 leg.limits.iter().all(|limit| margin(limit, &at, sh, &placement) > 0.0);
         }

@@ -146,6 +146,16 @@ pub enum Drive<T> {
     Length(T),
 }
 
+impl Drive<f64> {
+    /// q: rad in (−π, π], or a length.
+    pub fn value(self) -> f64 {
+        match self {
+            Self::Angle { cos, sin, .. } => sin.atan2(cos),
+            Self::Length(q) => q,
+        }
+    }
+}
+
 /// The driven joint q in the posture given by `sh` = s h: g_i(X) of (5), leg by leg.
 pub fn drive<T: Scalar, const D: usize>(
     actuator: &Actuator,

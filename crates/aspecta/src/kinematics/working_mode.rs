@@ -31,6 +31,11 @@ impl WorkingMode {
         if self.negative >> j & 1 == 1 { -1 } else { 1 }
     }
 
+    /// Every leg in its other posture.
+    pub fn opposite(self) -> Self {
+        Self::from_signs(self.signs().map(|sign| sign < 0))
+    }
+
     /// Number of legs.
     pub fn legs(self) -> usize {
         self.legs.into()

@@ -1,0 +1,204 @@
+//! One generalized aspect as a function: its poses, their joint vectors, and the other poses with the same joint vector.
+
+use super::grid::Grid;
+use crate::aspect::Analysis;
+use crate::kinematics::leg::drive;
+use crate::kinematics::modal::{Constraint, closures, constraints};
+use crate::kinematics::placement::Placement;
+use crate::kinematics::{WorkingMode, for_platform};
+use crate::robot::Robot;
+use arrayvec::ArrayVec;
+
+/// Which pose of a second list each pose of a first one has become.
+pub type Match = ArrayVec<usize, 16>;
+
+/// Joint coordinates; those beyond the robot's are 0.
+pub type Joints = [f64; 6];
+
+/// An aspect A_ij: the poses of WA_ij, and g_i on them.
+///
+/// Whether a pose lies in the class (working mode and sign of det A) is computed in doubles, hence numerical at distances from its
+/// boundary that rounding blurs; which aspect of the class it lies in is certified ([`Analysis::aspect_at`]).
+pub struct Sheet<'a> {
+    analysis: &'a Analysis,
+    class: usize,
+    id: usize,
+    mode: WorkingMode,
+    sign: f64,
+    /// Whether the class is proved to have no other aspect.
+    alone: bool,
+}
+
+impl<'a> Sheet<'a> {
+    /// The aspect with the given [`crate::aspect::Aspect::id`].
+    pub fn new(analysis: &'a Analysis, id: usize) -> Option<Self> {
+        let (class, _) = analysis.aspect(id)?;
+        let entry = &analysis.classes[class];
+        let (mode, sign) = (entry.mode, f64::from(entry.det_a.factor()));
+        Some(Self { analysis, class, id, mode, sign, alone: entry.high == Some(1) })
+    }
+
+    /// g_i(X), if X lies in the aspect.
+    pub fn joints(&self, pose: &[f64]) -> Option<Joints> {
+        let robot = &self.analysis.robot;
+        let window = &self.analysis.window;
+        let within =
+            pose.iter().enumerate().all(|(k, &x)| window.fraction(k, window.turned_in(k, x)).is_some());
+        let joints =
+            within.then(|| for_platform!(robot.platform, in_class(robot, self.mode, self.sign, pose)))??;
+        (self.alone || self.analysis.aspect_at(self.class, pose) == Some(self.id)).then_some(joints)
+    }
+
+    /// Visits the other poses X′ of the aspect with g_i(X′) = q = g_i(X). False if the direct model fails: a joint vector with
+    /// infinitely many poses, or poses of which none is X.
+    pub fn others(&self, pose: &[f64], joints: &Joints, mut visit: impl FnMut(&[f64])) -> bool {
+        let robot = &self.analysis.robot;
+        let Ok(poses) = robot.direct_poses(&joints[..robot.dof()]) else { return false };
+        let Some(own) = (0..poses.len()).min_by(|&a, &b| {
+            let gap = |k: usize| poses.iter().nth(k).map_or(f64::INFINITY, |other| self.gap(pose, other));
+            gap(a).total_cmp(&gap(b))
+        }) else {
+            return false;
+        };
+        for (_, other) in poses.iter().enumerate().filter(|(k, _)| *k != own) {
+            if self.joints(other).is_some_and(|q| self.is_posture(other, &q, joints)) {
+                visit(other);
+            }
+        }
+        true
+    }
+
+    /// n(X): how many poses of the aspect, X among them, have its joint vector; `None` outside the aspect.
+    pub fn count(&self, pose: &[f64]) -> Option<u8> {
+        Some(1 + self.all_others(pose)?.len() as u8)
+    }
+
+    fn all_others(&self, pose: &[f64]) -> Option<ArrayVec<[f64; 3], 16>> {
+        let joints = self.joints(pose)?;
+        let mut others = ArrayVec::new();
+        self.others(pose, &joints, |other| {
+            // The direct model never has more.
+            let _ = others.try_push(std::array::from_fn(|k| other.get(k).copied().unwrap_or(0.0)));
+        });
+        Some(others)
+    }
+
+    /// Follows the other poses with the joint vectors along a segment from one end to the other: which of `of_b` each of `of_a` becomes.
+    ///
+    /// They must move continuously: by at most [`Sheet::STRIDE`] cells between points of the segment, 2^`parts` or as many more as it takes, but no
+    /// nearer each other than 2^−[`Sheet::FINEST`] of it. `None` where they do not: one of them leaves the aspect, or another enters it.
+    pub fn follow(
+        &self,
+        grid: &Grid,
+        (a, of_a): ([f64; 3], &[[f64; 3]]),
+        (b, of_b): ([f64; 3], &[[f64; 3]]),
+        parts: u32,
+    ) -> Option<Match> {
+        self.follow_on(grid, (a, of_a), (b, of_b), (parts, Self::FINEST))
+    }
+
+    /// How far, in cells, a pose may jump and still count as moving continuously.
+    const STRIDE: f64 = 2.0;
+    /// How often a segment is halved.
+    const FINEST: u32 = 10;
+
+    fn follow_on(
+        &self,
+        grid: &Grid,
+        (a, of_a): ([f64; 3], &[[f64; 3]]),
+        (b, of_b): ([f64; 3], &[[f64; 3]]),
+        (parts, left): (u32, u32),
+    ) -> Option<Match> {
+        if of_a.len() != of_b.len() {
+            return None;
+        }
+        if parts == 0
+            && let Some(found) = self.nearest(grid, of_a, of_b)
+        {
+            return Some(found);
+        }
+        if left == 0 {
+            return None;
+        }
+        let middle: [f64; 3] = std::array::from_fn(|k| 0.5 * (a[k] + b[k]));
+        let others = self.all_others(&middle[..grid.axes()])?;
+        let next = (parts.saturating_sub(1), left - 1);
+        let first = self.follow_on(grid, (a, of_a), (middle, &others), next)?;
+        let second = self.follow_on(grid, (middle, &others), (b, of_b), next)?;
+        Some(first.iter().map(|&i| second[i]).collect())
+    }
+
+    /// Which pose of `to` each of `from` is nearest to, if each is so near that it can have moved there, and no two to one.
+    fn nearest(&self, grid: &Grid, from: &[[f64; 3]], to: &[[f64; 3]]) -> Option<Match> {
+        let gap = |x: &[f64; 3], y: &[f64; 3]| {
+            let part = |k: usize| {
+                let gap = if self.analysis.window.angles[k] { turned(x[k] - y[k]) } else { x[k] - y[k] };
+                gap.abs() / grid.step[k]
+            };
+            (0..grid.axes()).map(part).fold(0.0, f64::max)
+        };
+        let mut found = Match::new();
+        for x in from {
+            let nearest = (0..to.len()).min_by(|&i, &j| gap(x, &to[i]).total_cmp(&gap(x, &to[j])))?;
+            if gap(x, &to[nearest]) > Self::STRIDE || found.contains(&nearest) {
+                return None;
+            }
+            found.push(nearest);
+        }
+        Some(found)
+    }
+
+    /// The greatest difference of two poses, coordinate by coordinate in parts of the window.
+    fn gap(&self, a: &[f64], b: &[f64]) -> f64 {
+        let window = &self.analysis.window;
+        let part = |k: usize| {
+            let gap = if window.angles[k] { turned(a[k] - b[k]) } else { a[k] - b[k] };
+            gap.abs() / (window.ranges[k].1 - window.ranges[k].0)
+        };
+        (0..a.len()).map(part).fold(0.0, f64::max)
+    }
+
+    /// Whether the joint vector `found` of a pose in this mode is the one asked for, leg by leg nearer to it than that of the
+    /// other posture.
+    fn is_posture(&self, pose: &[f64], found: &Joints, asked: &Joints) -> bool {
+        let robot = &self.analysis.robot;
+        let turned_over = for_platform!(robot.platform, joints_in(robot, self.mode.opposite(), pose));
+        robot.legs.iter().enumerate().filter(|(_, leg)| leg.actuator.postures() == 2).all(|(j, leg)| {
+            let gap =
+                |q: f64| (if leg.actuator.is_angle() { turned(q - asked[j]) } else { q - asked[j] }).abs();
+            gap(found[j]) <= gap(turned_over[j])
+        })
+    }
+}
+
+/// An angle's remainder in [−π, π].
+fn turned(angle: f64) -> f64 {
+    angle - std::f64::consts::TAU * (angle / std::f64::consts::TAU).round()
+}
+
+fn in_class<const D: usize, const N: usize>(
+    robot: &Robot,
+    mode: WorkingMode,
+    sign: f64,
+    pose: &[f64],
+) -> Option<Joints> {
+    let placement = Placement::<f64, D>::at(robot.platform, pose);
+    let mut inside = true;
+    constraints::<f64, D, N>(robot, &placement, mode, |constraint, value| {
+        inside &= (if constraint == Constraint::Det { sign * value } else { value }) > 0.0;
+        inside
+    });
+    inside.then(|| joints_in::<D, N>(robot, mode, pose))
+}
+
+/// The joint vector of a mode at a pose; where a leg does not reach, that of its serial singularity.
+fn joints_in<const D: usize, const N: usize>(robot: &Robot, mode: WorkingMode, pose: &[f64]) -> Joints {
+    let placement = Placement::<f64, D>::at(robot.platform, pose);
+    let legs = closures::<f64, D, N>(robot, &placement);
+    let mut joints = [0.0; 6];
+    for (j, (leg, at)) in robot.legs.iter().zip(&legs).enumerate() {
+        let sh = f64::from(mode.sign(j)) * at.closure.reach.max(0.0).sqrt();
+        joints[j] = drive(&leg.actuator, &at.span, &at.closure, sh).value();
+    }
+    joints
+}
