@@ -1,1 +1,3 @@
 //! Section 4 of the paper: the largest domains of the workspace in which a joint vector means one pose.
+
+pub mod cusps;
