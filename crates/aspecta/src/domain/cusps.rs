@@ -8,6 +8,7 @@
 //! Cusps have codimension two: with one joint held they are isolated points for n = 3. Platforms that do not turn have none:
 //! the differences of their leg equations are linear in X, so of isolated direct solutions there are two at most.
 
+mod curve;
 mod equations;
 mod search;
 mod unfold;
@@ -22,10 +23,11 @@ use equations::System;
 use search::{Findings, Search};
 use serde::Serialize;
 
+pub use curve::{CurveEnd, CurvePoint, CuspCurve, CuspCurves, cusp_curves};
 pub use unfold::Unfolding;
 
 /// Boxes that a search looks at unless told otherwise.
-pub const USUAL_BOXES: u64 = 4_000_000;
+pub const USUAL_BOXES: u64 = 1_000_000;
 
 /// What to look for.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -73,6 +75,14 @@ pub enum CuspError {
         /// Index given.
         index: usize,
     },
+    /// No joint has a range.
+    #[error(
+        "robot `{robot}`: no joint has a range to look for curves of cusps in; give limits to an actuator"
+    )]
+    NoRange {
+        /// Robot name.
+        robot: String,
+    },
     /// Not one of the robot's modes.
     #[error("robot `{robot}` has no working mode {mode}")]
     Mode {
@@ -96,8 +106,8 @@ pub struct Cusps {
     pub robot: String,
     /// The unit of lengths.
     pub length_unit: String,
-    /// The joints held: index from 0, and value (length unit or rad).
-    pub fixed: Vec<(usize, f64)>,
+    /// The joints held.
+    pub fixed: Vec<HeldJoint>,
     /// The working modes searched.
     pub modes: Vec<WorkingMode>,
     /// The cusps, by working mode, then by angle.
@@ -110,6 +120,24 @@ pub struct Cusps {
     pub proof: Proof,
     /// Boxes looked at.
     pub boxes: u64,
+}
+
+/// A joint held at a value.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct HeldJoint {
+    /// Its name: `q1`, `q2`, …
+    pub joint: String,
+    /// Its value.
+    pub value: f64,
+    /// The unit of the value: `rad` or that of lengths.
+    pub unit: String,
+}
+
+impl HeldJoint {
+    fn new(robot: &Robot, &(index, value): &(usize, f64)) -> Self {
+        let unit = if robot.legs[index].actuator.is_angle() { "rad" } else { &robot.length_unit };
+        Self { joint: format!("q{}", index + 1), value, unit: unit.into() }
+    }
 }
 
 /// How it is known that there are no other cusps.
@@ -190,7 +218,7 @@ pub fn cusps(robot: &Robot, options: &Options, control: &Control<'_>) -> Result<
     let mut all = Cusps {
         robot: robot.name.clone(),
         length_unit: robot.length_unit.clone(),
-        fixed: options.fix.clone(),
+        fixed: options.fix.iter().map(|held| HeldJoint::new(robot, held)).collect(),
         modes,
         cusps: Vec::new(),
         undecided: Vec::new(),
@@ -250,12 +278,16 @@ fn find<const D: usize, const N: usize>(
     folds.retain(|fold| held.is_none_or(|(k, _)| k != fold.leg));
     let charts = || std::iter::once(Chart::Pose).chain(folds.iter().cloned().map(Chart::Fold));
     let mut left = options.boxes.unwrap_or(USUAL_BOXES);
-    for mode in all.modes.clone() {
+    let modes = all.modes.clone();
+    for (done, mode) in modes.iter().copied().enumerate() {
         let mut known = Vec::new();
+        // What a mode leaves of its share goes to those that follow.
+        let mut share = left.div_ceil((modes.len() - done) as u64);
         for chart in charts() {
             let system = System::<D>::new(robot, chart, mode, held);
             let search = Search::<D, N> { window: system.chart.window(window), system, elsewhere: &folds };
-            let findings = search.run(left, control);
+            let findings = search.run(share, control);
+            share -= findings.boxes;
             left -= findings.boxes;
             all.boxes += findings.boxes;
             collect(&search, window, &findings, &mut known, all);

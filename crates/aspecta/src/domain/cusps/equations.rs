@@ -58,7 +58,13 @@ struct LegForce<T, const D: usize> {
 
 impl<'a, const D: usize> System<'a, D> {
     pub fn new(robot: &'a Robot, chart: Chart, mode: WorkingMode, held: Option<(usize, f64)>) -> Self {
-        Self { robot, chart, mode, held, curvatures: robot.legs.iter().map(curvature).collect() }
+        Self {
+            robot,
+            chart,
+            mode,
+            held,
+            curvatures: robot.legs.iter().map(|leg| curvature(leg, [0.0; D], 1.0)).collect(),
+        }
     }
 
     /// The legs at `y`, and the held leg's equation.
@@ -183,12 +189,8 @@ fn velocity<T: Scalar, const D: usize, const N: usize>(
 }
 
 /// ∂²f/∂d² of a leg, in its own frame. Every leg equation is of second degree at most in d, and q is not in its terms of
-/// second degree: so it is a constant.
-fn curvature<const D: usize>(leg: &Leg) -> [[Interval; D]; D] {
-    curvature_at(leg, [0.0; D], 1.0)
-}
-
-fn curvature_at<const D: usize>(leg: &Leg, d: [f64; D], q: f64) -> [[Interval; D]; D] {
+/// second degree: so it is a constant, and `d` and `q` are free.
+pub(super) fn curvature<const D: usize>(leg: &Leg, d: [f64; D], q: f64) -> [[Interval; D]; D] {
     let inner = |k: usize| Jet::<Interval, D>::variable(Interval::point(d[k]), k);
     let outer: [Jet<Jet<Interval, D>, D>; D] = std::array::from_fn(|k| Jet::variable(inner(k), k));
     let f = equation(&leg.actuator, &outer, Scalar::constant(Interval::point(q)));

@@ -17,7 +17,7 @@ pub struct Unfolding {
 }
 
 /// Steps off the singular surface, relative to the robot; the solutions then part by about the root of it.
-const STEPS: [f64; 4] = [1e-6, 1e-7, 1e-5, 1e-8];
+const STEPS: [f64; 4] = [1e-5, 1e-6, 1e-4, 1e-7];
 /// Solutions this many roots of the step away count as near.
 const NEAR: f64 = 40.0;
 
