@@ -145,6 +145,14 @@ struct Place {
     tangent: Vector3<f64>,
 }
 
+/// det A and κ at a point, divided by the lengths of their gradients.
+struct Linear {
+    values: [f64; 2],
+    /// Unit vectors.
+    gradients: [Vector3<f64>; 2],
+    tangent: Vector3<f64>,
+}
+
 impl<'a, const D: usize> Tracker<'a, D> {
     fn new(robot: &'a Robot, window: &'a Window, mode: WorkingMode) -> Self {
         let system = System::new(robot, Chart::Pose, mode, None);
@@ -160,7 +168,7 @@ impl<'a, const D: usize> Tracker<'a, D> {
         if known.iter().any(near) {
             return None;
         }
-        let start = Place { at, tangent: self.linearised(&at)?.2 };
+        let start = Place { at, tangent: self.linearised(&at)?.tangent };
         let (mut places, last) = self.follow(start);
         let mut ends = [last; 2];
         if last != CurveEnd::Closed {
@@ -172,8 +180,8 @@ impl<'a, const D: usize> Tracker<'a, D> {
         Some(CuspCurve { mode: self.system.mode, points, ends })
     }
 
-    /// det A and κ, their normalised gradients, and the tangent. `None` beyond a serial singularity.
-    fn linearised(&self, at: &Vector3<f64>) -> Option<([f64; 2], [Vector3<f64>; 2], Vector3<f64>)> {
+    /// The equations near a point. `None` beyond a serial singularity.
+    fn linearised(&self, at: &Vector3<f64>) -> Option<Linear> {
         let y: [f64; 3] = at.component_mul(&self.unit).into();
         let variables: [_; 3] = std::array::from_fn(|k| Jet::<f64, 3>::variable(y[k], k));
         let values = self.system.values(&variables, self.system.pivot(&y));
@@ -186,14 +194,14 @@ impl<'a, const D: usize> Tracker<'a, D> {
         let (a, b) = (df.norm(), dg.norm());
         let (df, dg) = (df / a, dg / b);
         let tangent = df.cross(&dg).try_normalize(1e-9)?;
-        Some(([f.value / a, g.value / b], [df, dg], tangent))
+        Some(Linear { values: [f.value / a, g.value / b], gradients: [df, dg], tangent })
     }
 
     /// The point of the curve in the plane across `ahead.tangent` at `ahead.at`.
     fn corrected(&self, ahead: Place) -> Option<Place> {
         let mut at = ahead.at;
         for _ in 0..8 {
-            let (f, [df, dg], tangent) = self.linearised(&at)?;
+            let Linear { values: f, gradients: [df, dg], tangent } = self.linearised(&at)?;
             let rows = Matrix3::from_rows(&[df.transpose(), dg.transpose(), ahead.tangent.transpose()]);
             let right = Vector3::new(f[0], f[1], ahead.tangent.dot(&(at - ahead.at)));
             let step = rows.lu().solve(&right)?;

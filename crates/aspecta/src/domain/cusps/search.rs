@@ -17,6 +17,9 @@ pub(super) type Region<const N: usize> = [Interval; N];
 /// Boxes narrower than this part of the window in every coordinate are split no more.
 const FINEST: f64 = 1e-7;
 
+/// Boxes between two looks at whether to stop.
+const CHUNK: usize = 1024;
+
 /// A cusp proved to exist.
 #[derive(Clone, Debug)]
 pub(super) struct Found<const N: usize> {
@@ -33,6 +36,17 @@ pub(super) struct Findings<const N: usize> {
     pub doubts: Vec<(Region<N>, Doubt)>,
     /// Boxes looked at.
     pub boxes: u64,
+}
+
+impl<const N: usize> Findings<N> {
+    fn add(&mut self, outcome: Outcome<N>, next: &mut Vec<Region<N>>) {
+        match outcome {
+            Outcome::Empty => {}
+            Outcome::Found(found) => self.found.push(found),
+            Outcome::Split(halves) => next.extend(halves),
+            Outcome::Doubtful(region, why) => self.doubts.push((region, why)),
+        }
+    }
 }
 
 /// What became of a box.
@@ -60,26 +74,23 @@ impl<const D: usize, const N: usize> Search<'_, D, N> {
         let mut all = Findings { found: Vec::new(), doubts: Vec::new(), boxes: 0 };
         let mut level = vec![whole];
         while !level.is_empty() {
-            let left = (budget - all.boxes) as usize;
-            let stopped = control.is_cancelled();
-            if level.len() > left || stopped {
-                let why = if stopped { Doubt::Cancelled } else { Doubt::Boxes };
-                all.doubts.extend(level.into_iter().map(|region| (region, why)));
-                break;
-            }
-            all.boxes += level.len() as u64;
-            let outcomes: Vec<_> = level.par_iter().map(|region| self.settle(*region)).collect();
-            level.clear();
-            for outcome in outcomes {
-                match outcome {
-                    Outcome::Empty => {}
-                    Outcome::Found(found) => all.found.push(found),
-                    Outcome::Split(halves) => level.extend(halves),
-                    Outcome::Doubtful(region, why) => all.doubts.push((region, why)),
+            let mut next = Vec::new();
+            let mut chunks = level.chunks(CHUNK);
+            for chunk in chunks.by_ref() {
+                let stopped = control.is_cancelled();
+                if stopped || all.boxes + chunk.len() as u64 > budget {
+                    let why = if stopped { Doubt::Cancelled } else { Doubt::Boxes };
+                    let rest = chunk.iter().chain(chunks.flatten()).chain(&next);
+                    all.doubts.extend(rest.map(|region| (*region, why)));
+                    return all;
                 }
+                all.boxes += chunk.len() as u64;
+                let outcomes: Vec<_> = chunk.par_iter().map(|region| self.settle(*region)).collect();
+                outcomes.into_iter().for_each(|outcome| all.add(outcome, &mut next));
+                let total = all.boxes + (level.len() + next.len()) as u64;
+                (control.progress)(Progress { stage: "searching for cusps", done: all.boxes, total });
             }
-            let (done, open) = (all.boxes, level.len() as u64);
-            (control.progress)(Progress { stage: "searching for cusps", done, total: done + open });
+            level = next;
         }
         all
     }
