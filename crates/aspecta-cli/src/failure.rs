@@ -2,6 +2,7 @@
 
 use aspecta::aspect::AnalysisError;
 use aspecta::certificate::CertificateError;
+use aspecta::domain::cusps::CuspError;
 use aspecta::kinematics::KinematicsError;
 use aspecta::motion::PathError;
 use aspecta::robot::FileError;
@@ -39,6 +40,9 @@ pub enum Failure {
     /// It cannot be analysed.
     #[error(transparent)]
     Analysis(#[from] AnalysisError),
+    /// Its cusps cannot be looked for.
+    #[error(transparent)]
+    Cusps(#[from] CuspError),
     /// The certificate cannot be read.
     #[error(transparent)]
     Certificate(#[from] CertificateError),

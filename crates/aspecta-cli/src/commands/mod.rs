@@ -5,6 +5,7 @@ mod budget;
 mod check;
 mod check_path;
 mod completions;
+mod cusps;
 mod domains;
 mod doubts;
 mod fix;
@@ -38,6 +39,8 @@ pub enum Command {
     Fk(fk::Fk),
     /// Jacobians, working mode and nearness to singularities of a configuration
     State(state::State),
+    /// Cusps: where three direct solutions meet, all of a slice or curves through the whole robot
+    Cusps(cusps::Cusps),
     /// Prove that a path of straight segments meets no singularity, or find where it does
     CheckPath(check_path::CheckPath),
     /// List the robots of the catalogue, or show one's file
@@ -60,6 +63,7 @@ impl Command {
             Self::Ik(command) => command.run(out),
             Self::Fk(command) => command.run(out),
             Self::State(command) => command.run(out),
+            Self::Cusps(command) => command.run(out),
             Self::CheckPath(command) => command.run(out),
             Self::Robots(command) => command.run(out),
             Self::Check(command) => command.run(out),

@@ -4,6 +4,7 @@ mod analyze;
 mod bad_input;
 mod check_path;
 mod csv;
+mod cusps;
 mod json;
 mod people;
 mod process;

@@ -95,11 +95,11 @@ impl Grid {
         }
     }
 
-    /// The pose at node `to`, the turn of it that is next to node `from`.
-    pub fn beside(&self, from: usize, to: usize) -> [f64; 3] {
-        let (near, pose) = (self.pose(from), self.pose(to));
+    /// The pose at a node, turned by full turns to be next to another pose.
+    pub fn turned_to(&self, near: &[f64; 3], node: usize) -> [f64; 3] {
+        let pose = self.pose(node);
         std::array::from_fn(|k| {
-            let turns = if self.wraps[k] { ((near[k] - pose[k]) / TAU).round() } else { 0.0 };
+            let turns = if self.glued[k] { ((near[k] - pose[k]) / TAU).round() } else { 0.0 };
             pose[k] + turns * TAU
         })
     }

@@ -5,8 +5,9 @@
 //! images of two basic regions, their basic components (Def. 11), coincide or are disjoint. Unions of adjacent regions with disjoint images are the
 //! uniqueness domains (Theorem 3).
 //!
-//! All of this is numerical: the regions are sets of nodes of a grid, true to a cell.
+//! The regions are numerical: sets of nodes of a grid, true to a cell. [`cusps`], where three direct solutions meet, are certified.
 
+pub mod cusps;
 mod grid;
 mod images;
 mod partition;
@@ -17,6 +18,6 @@ mod uniqueness;
 pub use partition::{OUTSIDE, Partition};
 pub use result::{
     Agreement, BasicRegion, Coincidence, Disagreement, DomainError, DomainOptions, Domains, UniquenessDomain,
-    Violation, domains,
+    Unresolved, Violation, domains,
 };
 pub use sheet::Sheet;

@@ -204,7 +204,7 @@ impl Partition {
     /// move continuously.
     fn way(&self, sheet: &Sheet<'_>, from: usize, to: usize, depth: u32) -> Option<Match> {
         let start = (self.grid.pose(from), self.others(from));
-        let end = (self.grid.beside(from, to), self.others(to));
+        let end = (self.grid.turned_to(&self.grid.pose(from), to), self.others(to));
         sheet.follow(&self.grid, start, end, depth)
     }
 
@@ -256,6 +256,30 @@ impl Partition {
         let mut found = None;
         self.grid.around(pose, |node| found = Some(self.region[node]).filter(&is_fit).or(found));
         found
+    }
+
+    /// The region of a pose of the aspect: that of a node at most two cells away to which a straight segment stays in the aspect with the
+    /// other poses moving continuously.
+    pub fn region_of(&self, sheet: &Sheet<'_>, pose: &[f64]) -> Option<u32> {
+        let others = sheet.all_others(pose)?;
+        let mut nearest = None;
+        self.grid.around(pose, |node| nearest = Some(node));
+        let mut nodes = vec![nearest?];
+        self.grid.within(nodes[0], 2, |node| nodes.push(node));
+        let from = padded(pose);
+        let ends = nodes.into_iter().filter(|&node| usize::from(self.solutions[node]) == others.len() + 1);
+        let mut ends: Vec<(f64, usize, [f64; 3])> = ends
+            .map(|node| {
+                let to = self.grid.turned_to(&from, node);
+                let gap = |k: usize| ((to[k] - from[k]) / self.grid.step[k]).powi(2);
+                ((0..self.grid.axes()).map(gap).sum(), node, to)
+            })
+            .collect();
+        ends.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let is_open = |node: usize, to: [f64; 3]| {
+            sheet.follow(&self.grid, (from, &others), (to, self.others(node)), 3).is_some()
+        };
+        ends.into_iter().find(|&(_, node, to)| is_open(node, to)).map(|(_, node, _)| self.region[node])
     }
 
     /// Pairs of regions (the lesser first) with neighbouring nodes, and how many such pairs of nodes.

@@ -101,6 +101,19 @@ pub struct Domains {
     pub partition: Partition,
 }
 
+impl Domains {
+    /// The number of the basic region that a pose lies in; `None` outside the aspect, and where the grid is too coarse to tell.
+    pub fn region_at(&self, analysis: &Analysis, pose: &[f64]) -> Option<usize> {
+        let region = self.partition.region_of(&Sheet::new(analysis, self.aspect)?, pose)? as usize;
+        self.regions.get(region).map(|found| found.number)
+    }
+
+    /// Whether the images of two basic regions (by number) meet: then their basic components coincide.
+    pub fn coincide(&self, a: usize, b: usize) -> bool {
+        self.coincidences.iter().any(|c| c.regions == (a.min(b), a.max(b)))
+    }
+}
+
 /// WAb_ijk.
 #[derive(Clone, Debug, Serialize)]
 pub struct BasicRegion {

@@ -73,7 +73,8 @@ impl<'a> Sheet<'a> {
         Some(1 + self.all_others(pose)?.len() as u8)
     }
 
-    fn all_others(&self, pose: &[f64]) -> Option<ArrayVec<[f64; 3], 16>> {
+    /// The other poses of the aspect with the joint vector of a pose; `None` outside the aspect.
+    pub fn all_others(&self, pose: &[f64]) -> Option<ArrayVec<[f64; 3], 16>> {
         let joints = self.joints(pose)?;
         let mut others = ArrayVec::new();
         self.others(pose, &joints, |other| {

@@ -1,0 +1,194 @@
+//! `aspecta cusps`: where three direct solutions meet.
+
+use super::queries::Labels;
+use super::{fix, watch};
+use crate::failure::{Answer, Failure};
+use crate::input;
+use crate::output::{Align, FORMAT_VERSION, Table, json, note, number};
+use aspecta::domain::cusps::{
+    self, CurveEnd, Cusp, CuspCurve, CuspCurves, Doubt, Options, Proof, Undecided, cusp_curves, cusps,
+};
+use aspecta::robot::Robot;
+use clap::Args;
+use serde::Serialize;
+use std::io::Write;
+
+/// Arguments of `cusps`.
+///
+/// A cusp lets the platform change its assembly mode without meeting a singularity, by a loop of the joints round it.
+#[derive(Args)]
+#[command(after_help = EXAMPLE)]
+pub struct Cusps {
+    /// Name from `aspecta robots`, or path of a robot file
+    robot: String,
+    /// The joint that is held: q1=14.98, q2=0.5 (radians) or q2=30deg. Without it, the curves of cusps of a robot with three
+    /// degrees of freedom, followed numerically
+    #[arg(long, value_name = "JOINT=VALUE", value_delimiter = ',')]
+    fix: Vec<String>,
+    /// Only the cusps in this working mode, such as `+-+`
+    #[arg(long, allow_hyphen_values = true)]
+    mode: Option<String>,
+    /// Greatest number of boxes to look at [default: 1000000]; what is left is undecided
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    boxes: Option<u64>,
+    /// Angles of the table are in degrees
+    #[arg(long)]
+    deg: bool,
+    /// Print JSON, and nothing else, on stdout (angles in radians)
+    #[arg(long)]
+    json: bool,
+    /// Number of threads [default: all cores]; the result does not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+}
+
+const EXAMPLE: &str = "\
+Example: aspecta cusps 3-rpr --fix q1=14.98
+lists the six cusps of that slice; that these are all is proved by intervals. `nearby` is how many direct solutions
+there are near the cusp for a joint vector on either side of it.
+Exit status: 0 cusps, proved to be all; 1 none, or boxes are left undecided; 2 bad input.";
+
+#[derive(Serialize)]
+struct Document<'a, T> {
+    format_version: u32,
+    #[serde(flatten)]
+    found: &'a T,
+}
+
+impl Cusps {
+    pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
+        let robot = input::robot(&self.robot)?;
+        let mode = self.mode.as_deref().map(|m| input::mode(&robot, m)).transpose()?;
+        let options = Options { fix: fix::joints(&robot, &self.fix)?, mode, boxes: self.boxes };
+        if options.fix.is_empty() && robot.dof() == 3 {
+            let found = watch::watched(self.threads, |control| cusp_curves(&robot, mode, control))??;
+            if self.json {
+                json(out, &Document { format_version: FORMAT_VERSION, found: &found })?;
+            } else {
+                print_curves(out, &robot, &found, self.deg)?;
+            }
+            return Ok(Answer::from(!found.curves.is_empty()));
+        }
+        let found = watch::watched(self.threads, |control| cusps(&robot, &options, control))??;
+        if self.json {
+            json(out, &Document { format_version: FORMAT_VERSION, found: &found })?;
+        } else {
+            print(out, &robot, &found, self.deg)?;
+        }
+        if found.undecided.iter().any(|u| u.why == Doubt::Cancelled) {
+            note("cancelled: this is the result so far");
+        }
+        Ok(Answer::from(found.complete && !found.cusps.is_empty()))
+    }
+}
+
+fn print(out: &mut dyn Write, robot: &Robot, found: &cusps::Cusps, degrees: bool) -> Result<(), Failure> {
+    let held = found.fixed.iter().map(|h| format!(" at {} = {} {}", h.joint, number(h.value), h.unit));
+    let count = found.cusps.len();
+    let proof = match (found.complete, found.proof) {
+        (false, _) => "not proved to be all",
+        (true, Proof::Intervals) => "proved to be all",
+        (true, Proof::Quadratic) => "proved: without turning, at most two direct solutions are isolated",
+    };
+    let plural = if count == 1 { "" } else { "s" };
+    writeln!(out, "{}: {count} cusp{plural}{} ({proof})", found.robot, held.collect::<String>())?;
+    if count > 0 {
+        write!(out, "{}", table(robot, &found.cusps, degrees))?;
+    }
+    for u in &found.undecided {
+        writeln!(out, "undecided, mode {}: {}: {}", u.mode, place(robot, u, degrees), reason(u.why))?;
+    }
+    Ok(())
+}
+
+fn table(robot: &Robot, cusps: &[Cusp], degrees: bool) -> Table {
+    let (pose, joints) = (Labels::pose(robot, degrees), Labels::joints(robot, degrees));
+    let right = |name: String| (name, Align::Right);
+    let mut headings = vec![("mode".into(), Align::Left)];
+    headings.extend(joints.headings().map(right));
+    headings.extend(pose.headings().map(right));
+    headings.extend([("nearby".into(), Align::Left), ("limits".into(), Align::Left)]);
+    let mut table = Table::new(headings);
+    for cusp in cusps {
+        // What the direct model says on both sides.
+        let nearby = if cusp.unfolding.is_some() { "3 | 1" } else { "not seen" };
+        let limits = if cusp.within_limits { "within" } else { "beyond" };
+        let cells = joints.numbers(&cusp.q).chain(pose.numbers(&cusp.pose));
+        table.row(std::iter::once(cusp.mode.to_string()).chain(cells).chain([nearby.into(), limits.into()]));
+    }
+    table
+}
+
+fn print_curves(
+    out: &mut dyn Write,
+    robot: &Robot,
+    found: &CuspCurves,
+    degrees: bool,
+) -> Result<(), Failure> {
+    let (count, slices) = (found.curves.len(), found.slices.len());
+    let plural = if count == 1 { "" } else { "s" };
+    writeln!(
+        out,
+        "{}: {count} curve{plural} of cusps through {slices} slices of {} (numerical; curves between slices are not seen)",
+        found.robot, found.joint
+    )?;
+    if !found.slices_complete {
+        writeln!(out, "not all slices were searched completely: `--fix {}=VALUE` tells more", found.joint)?;
+    }
+    if count == 0 {
+        return Ok(());
+    }
+    let joints = Labels::joints(robot, degrees);
+    let right = |name: String| (name, Align::Right);
+    let mut headings = vec![("mode".into(), Align::Left), right("points".into())];
+    headings.extend(joints.headings().flat_map(|h| [right(format!("{h} from")), right("to".into())]));
+    headings.extend(["first end", "last end"].map(|h| (h.into(), Align::Left)));
+    let mut table = Table::new(headings);
+    for curve in &found.curves {
+        let [least, greatest] = [f64::min as fn(f64, f64) -> f64, f64::max].map(|pick| extremes(curve, pick));
+        let ranges = joints.numbers(&least).zip(joints.numbers(&greatest)).flat_map(|(a, b)| [a, b]);
+        let ends = curve.ends.map(|end| end_name(end).to_owned());
+        table.row(
+            [curve.mode.to_string(), curve.points.len().to_string()].into_iter().chain(ranges).chain(ends),
+        );
+    }
+    write!(out, "{table}")?;
+    Ok(())
+}
+
+/// The least or the greatest value of every joint on a curve.
+fn extremes(curve: &CuspCurve, pick: fn(f64, f64) -> f64) -> Vec<f64> {
+    let joints = curve.points.iter().map(|p| p.q.clone());
+    joints.reduce(|a, b| a.iter().zip(&b).map(|(a, b)| pick(*a, *b)).collect()).unwrap_or_default()
+}
+
+fn end_name(end: CurveEnd) -> &'static str {
+    match end {
+        CurveEnd::Closed => "closed",
+        CurveEnd::Window => "window",
+        CurveEnd::Serial => "serial singularity",
+        CurveEnd::FreeJoint => "free joint",
+        CurveEnd::Lost => "lost",
+    }
+}
+
+/// The box, from its least to its greatest coordinates.
+fn place(robot: &Robot, undecided: &Undecided, degrees: bool) -> String {
+    let labels = Labels::pose(robot, degrees);
+    let bounds = |end: fn(&aspecta::num::Interval) -> f64| -> Vec<f64> {
+        undecided.enclosure.iter().map(end).collect()
+    };
+    let (lo, hi) = (bounds(|e| e.lo), bounds(|e| e.hi));
+    format!("from {} to {}", labels.sentence(&lo), labels.sentence(&hi))
+}
+
+fn reason(why: Doubt) -> String {
+    match why {
+        Doubt::Serial { leg } => format!("a serial singularity of leg {leg}"),
+        Doubt::FreeJoint { leg } => format!("leg {leg} folds onto its crank's axis, its joint is free"),
+        Doubt::Rank => "A all but loses two ranks".into(),
+        Doubt::Degenerate => "a degenerate cusp, or several that cannot be told apart".into(),
+        Doubt::Boxes => "the budget of boxes was spent (--boxes)".into(),
+        Doubt::Cancelled => "cancelled".into(),
+    }
+}
