@@ -1,0 +1,1 @@
+//! Characteristic surfaces (Definition 9).
