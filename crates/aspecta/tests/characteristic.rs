@@ -1,11 +1,13 @@
 //! Boundaries of aspects and characteristic surfaces (Definition 9), judged by formulas and counts of their own.
 
-use aspecta::aspect::{Analysis, AspectClass, DetSign, Options, analyze};
-use aspecta::domain::boundary::{Boundary, BoundaryError, Face};
+use aspecta::aspect::{Analysis, AspectClass, DetSign, Options, Place, analyze};
+use aspecta::domain::boundary::{Boundary, BoundaryError, Face, Simplex};
+use aspecta::domain::characteristic::{Characteristic, CharacteristicError};
 use aspecta::kinematics::modal::Constraint;
 use aspecta::paving::{Budget, Control};
 use aspecta::robot::catalogue;
 use std::collections::HashMap;
+use std::f64::consts::TAU;
 use std::sync::atomic::AtomicBool;
 
 fn analysis_of(name: &str, options: &Options) -> Analysis {
@@ -59,7 +61,9 @@ fn five_bar_boundaries_lie_where_they_say_and_enclose_the_aspects() {
     for class in &analysis.classes {
         for aspect in &class.aspects {
             let boundary = Boundary::new(&analysis, aspect.id, 300).unwrap();
-            assert_eq!((boundary.unplaced, boundary.unassigned), (0, 0), "aspect {}", aspect.id);
+            assert_eq!(boundary.unplaced, 0, "aspect {}", aspect.id);
+            // Slivers that are nowhere a cell wide.
+            assert!(boundary.unassigned < 20, "aspect {}: {}", aspect.id, boundary.unassigned);
             assert_closed(&boundary);
             for vertex in &boundary.vertices {
                 let c = [vertex.pose[0], vertex.pose[1]];
@@ -146,4 +150,206 @@ fn bad_requests_say_what_would_do() {
     let error = Boundary::new(&analysis, 99, 20).unwrap_err();
     assert!(matches!(error, BoundaryError::NoSuchAspect { id: 99, .. }));
     assert!(Boundary::new(&analysis, 1, 1).unwrap_err().to_string().contains("choose 4 to 2000"));
+}
+
+#[test]
+fn the_five_bar_has_no_characteristic_curves() {
+    // Its two direct solutions mirror each other in B1B2, so det A has opposite signs there.
+    let analysis = analysis_of("five-bar", &Options::default());
+    for aspect in analysis.classes.iter().flat_map(|class| &class.aspects) {
+        let boundary = Boundary::new(&analysis, aspect.id, 200).unwrap();
+        let surface = Characteristic::new(&analysis, &boundary).unwrap();
+        assert_eq!((surface.vertices.len(), surface.given_up.unsolved), (0, 0), "aspect {}", aspect.id);
+    }
+}
+
+/// Poses with every coordinate in widths of the window, and the way between them the short way round.
+struct Scaled<'a>(&'a Analysis);
+
+impl Scaled<'_> {
+    fn way(&self, a: &[f64], b: &[f64]) -> [f64; 3] {
+        let window = &self.0.window;
+        std::array::from_fn(|k| {
+            let gap = b[k] - a[k];
+            let gap = if window.glued[k] { gap - TAU * (gap / TAU).round() } else { gap };
+            gap / (window.ranges[k].1 - window.ranges[k].0)
+        })
+    }
+
+    fn moved(&self, a: &[f64], by: [f64; 3]) -> Vec<f64> {
+        let width = |k: usize| self.0.window.ranges[k].1 - self.0.window.ranges[k].0;
+        (0..3).map(|k| a[k] + by[k] * width(k)).collect()
+    }
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|k| a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3])
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|k| a[k] * b[k]).sum()
+}
+
+/// Whether the segment ±d round the origin meets a triangle.
+fn meets(triangle: &[[f64; 3]; 3], d: [f64; 3]) -> bool {
+    let [p, q, r] = *triangle;
+    let (u, v): ([f64; 3], [f64; 3]) = (std::array::from_fn(|k| q[k] - p[k]), std::array::from_fn(|k| r[k] - p[k]));
+    let h = cross(d, v);
+    let det = dot(u, h);
+    let s = p.map(|x| -x);
+    let (a, w) = (dot(s, h) / det, cross(s, u));
+    let (b, t) = (dot(d, w) / det, dot(v, w) / det);
+    a >= 0.0 && b >= 0.0 && a + b <= 1.0 && t.abs() <= 1.0
+}
+
+/// How many direct solutions of the joint vector of `pose` lie in the aspect; `None` where the analysis does not tell.
+fn sheets(analysis: &Analysis, class: usize, id: usize, pose: &[f64]) -> Option<usize> {
+    let of = &analysis.classes[class];
+    let q = analysis.robot.inverse_in(pose, of.mode).unwrap()?;
+    let mut count = 0;
+    for s in analysis.robot.direct(&q).unwrap() {
+        let positive = s.det_a > 0.0;
+        if s.mode != of.mode || positive != (of.det_a == DetSign::Positive) || !s.within_limits {
+            continue;
+        }
+        match analysis.locate(class, &s.pose) {
+            Place::Inside(found) => count += usize::from(found == id),
+            _ if (of.low, of.high) == (1, Some(1)) => count += 1,
+            _ => return None,
+        }
+    }
+    Some(count)
+}
+
+/// Segments that cross the surface once, away from its rim, change the number of direct solutions in the aspect by one.
+/// Returns how many segments there were.
+fn assert_crossings_change_the_number(
+    analysis: &Analysis,
+    class: usize,
+    surface: &Characteristic,
+    half: f64,
+) -> usize {
+    let scaled = Scaled(analysis);
+    let pose = |v: u32| &surface.vertices[v as usize].pose[..];
+    let mut uses: HashMap<(u32, u32), u32> = HashMap::new();
+    for s in &surface.simplices {
+        for (u, v) in [(0, 1), (1, 2), (2, 0)].map(|(i, j)| (s.corners[i], s.corners[j])) {
+            *uses.entry((u.min(v), u.max(v))).or_default() += 1;
+        }
+    }
+    let rim: Vec<u32> = uses.iter().filter(|(_, n)| **n == 1).flat_map(|((u, v), _)| [*u, *v]).collect();
+    let mut seed = 7_u64;
+    let mut tested = 0;
+    for _ in 0..400 {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        let s = &surface.simplices[(seed >> 33) as usize % surface.simplices.len()];
+        let [a, b, c] = s.corners.map(pose);
+        let (u, v) = (scaled.way(a, b), scaled.way(a, c));
+        let normal = cross(u, v);
+        let size = dot(normal, normal).sqrt();
+        if size < 1e-9 {
+            continue;
+        }
+        let centre = scaled.moved(a, std::array::from_fn(|k| (u[k] + v[k]) / 3.0));
+        let near = |v: &u32| dot(scaled.way(&centre, pose(*v)), scaled.way(&centre, pose(*v))).sqrt() < 5.0 * half;
+        if rim.iter().any(near) {
+            continue;
+        }
+        let long = normal.map(|x| 3.0 * half * x / size);
+        let triangle = |s: &Simplex| s.corners.map(|v| scaled.way(&centre, pose(v)));
+        if surface.simplices.iter().filter(|s| meets(&triangle(s), long)).count() != 1 {
+            continue;
+        }
+        let ends = [1.0, -1.0].map(|t| scaled.moved(&centre, long.map(|x| t * x / 3.0)));
+        if ends.iter().any(|end| analysis.locate(class, end) != Place::Inside(surface.aspect)) {
+            continue;
+        }
+        let [Some(m), Some(n)] = ends.each_ref().map(|end| sheets(analysis, class, surface.aspect, end)) else {
+            continue;
+        };
+        assert_eq!(m.abs_diff(n), 1, "{m} and {n} solutions at {ends:?}, across a piece from {:?}", s.face);
+        tested += 1;
+    }
+    tested
+}
+
+#[test]
+fn three_rrr_characteristic_surface() {
+    let analysis = analysis_of("3-rrr", &to_depth(6));
+    let (class, of) = class_of(&analysis, "+++", DetSign::Positive);
+    let boundary = Boundary::new(&analysis, of.aspects[0].id, 40).unwrap();
+    let start = std::time::Instant::now();
+    let surface = Characteristic::new(&analysis, &boundary).unwrap();
+    report(&surface, start);
+    assert!(surface.simplices.len() > 1000 && surface.given_up.unlocated * 100 < surface.vertices.len());
+    let anchors = [[-10.0, -10.0], [10.0, -10.0], [0.0, 10.0]];
+    let attachments = [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0]];
+    let ends = |pose: &[f64]| {
+        let (s, c) = f64::sin_cos(pose[2]);
+        attachments.map(|[u, v]: [f64; 2]| [pose[0] + c * u - s * v, pose[1] + s * u + c * v])
+    };
+    for vertex in &surface.vertices {
+        let source = &surface.sources[vertex.source as usize];
+        assert!(source.placed());
+        for j in 0..3 {
+            // The cranks stand as at X'; the rod of X closes on them.
+            let q = crank(anchors[j], ends(&vertex.pose)[j], 10.0, 10.0, 1);
+            let c = ends(&source.pose)[j];
+            let rod = (c[0] - anchors[j][0] - 10.0 * q.cos()).hypot(c[1] - anchors[j][1] - 10.0 * q.sin());
+            assert!((rod - 10.0).abs() < 1e-7, "{rod} at {vertex:?} {source:?}");
+        }
+        assert_ne!(analysis.locate(class, &vertex.pose), Place::Outside);
+    }
+    let tested = assert_crossings_change_the_number(&analysis, class, &surface, 0.004);
+    eprintln!("{tested} crossings");
+    assert!(tested >= 50, "{tested} crossings");
+}
+
+#[test]
+fn three_rpr_characteristic_surfaces() {
+    let analysis = analysis_of("3-rpr", &to_depth(6));
+    let (anchors, attachments) = (
+        [[0.0, 0.0], [15.91, 0.0], [0.0, 10.0]],
+        [[0.0, 0.0], [17.04, 0.0], [13.236_373_239_436_62, 16.096_708_466_836_508]],
+    );
+    let lengths = |pose: &[f64]| {
+        let (s, c) = f64::sin_cos(pose[2]);
+        let leg = |j: usize| {
+            let (a, [u, v]): ([f64; 2], [f64; 2]) = (anchors[j], attachments[j]);
+            (pose[0] + c * u - s * v - a[0]).hypot(pose[1] + s * u + c * v - a[1])
+        };
+        [leg(0), leg(1), leg(2)]
+    };
+    for sign in [DetSign::Positive, DetSign::Negative] {
+        let (class, of) = class_of(&analysis, "---", sign);
+        let boundary = Boundary::new(&analysis, of.aspects[0].id, 40).unwrap();
+        assert_closed(&boundary);
+        let start = std::time::Instant::now();
+        let surface = Characteristic::new(&analysis, &boundary).unwrap();
+        eprintln!("{} aspects, at most {:?}, {} unplaced", of.low, of.high, boundary.unplaced);
+        report(&surface, start);
+        for vertex in &surface.vertices {
+            let (q, of) = (lengths(&vertex.pose), lengths(&surface.sources[vertex.source as usize].pose));
+            assert!((0..3).all(|j| (q[j] - of[j]).abs() < 1e-8), "{q:?} {of:?}");
+        }
+        let tested = assert_crossings_change_the_number(&analysis, class, &surface, 0.004);
+        eprintln!("{tested} crossings");
+        assert!(tested >= 50, "{tested} crossings");
+    }
+}
+
+fn report(surface: &Characteristic, start: std::time::Instant) {
+    eprintln!(
+        "{} sources, {} vertices, {} simplices, {:?} in {:.2?}",
+        surface.sources.len(), surface.vertices.len(), surface.simplices.len(), surface.given_up, start.elapsed()
+    );
+}
+
+#[test]
+fn characteristic_surfaces_refuse_what_they_cannot_do() {
+    let slice = analysis_of("3-rrr", &Options { fix: vec![(2, 0.0)], ..to_depth(5) });
+    let id = slice.classes.iter().find_map(|c| c.aspects.first()).unwrap().id;
+    let boundary = Boundary::new(&slice, id, 30).unwrap();
+    assert_closed(&boundary);
+    assert_eq!(Characteristic::new(&slice, &boundary).unwrap_err(), CharacteristicError::Slice);
 }
