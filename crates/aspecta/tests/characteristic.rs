@@ -228,6 +228,7 @@ fn assert_crossings_change_the_number(
     class: usize,
     surface: &Characteristic,
     half: f64,
+    apart: f64,
 ) -> usize {
     let scaled = Scaled(analysis);
     let pose = |v: u32| &surface.vertices[v as usize].pose[..];
@@ -239,8 +240,8 @@ fn assert_crossings_change_the_number(
     }
     let rim: Vec<u32> = uses.iter().filter(|(_, n)| **n == 1).flat_map(|((u, v), _)| [*u, *v]).collect();
     let mut seed = 7_u64;
-    let mut tested = 0;
-    for _ in 0..400 {
+    let (mut tested, mut wrong) = (0, 0);
+    for _ in 0..1000 {
         seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         let s = &surface.simplices[(seed >> 33) as usize % surface.simplices.len()];
         let [a, b, c] = s.corners.map(pose);
@@ -251,7 +252,7 @@ fn assert_crossings_change_the_number(
             continue;
         }
         let centre = scaled.moved(a, std::array::from_fn(|k| (u[k] + v[k]) / 3.0));
-        let near = |v: &u32| dot(scaled.way(&centre, pose(*v)), scaled.way(&centre, pose(*v))).sqrt() < 5.0 * half;
+        let near = |v: &u32| dot(scaled.way(&centre, pose(*v)), scaled.way(&centre, pose(*v))).sqrt() < apart;
         if rim.iter().any(near) {
             continue;
         }
@@ -267,9 +268,13 @@ fn assert_crossings_change_the_number(
         let [Some(m), Some(n)] = ends.each_ref().map(|end| sheets(analysis, class, surface.aspect, end)) else {
             continue;
         };
-        assert_eq!(m.abs_diff(n), 1, "{m} and {n} solutions at {ends:?}, across a piece from {:?}", s.face);
+        if m.abs_diff(n) != 1 {
+            eprintln!("{m} and {n} solutions at {ends:?}, across a piece from {:?}", s.face);
+            wrong += 1;
+        }
         tested += 1;
     }
+    assert_eq!(wrong, 0, "of {tested}");
     tested
 }
 
@@ -300,7 +305,7 @@ fn three_rrr_characteristic_surface() {
         }
         assert_ne!(analysis.locate(class, &vertex.pose), Place::Outside);
     }
-    let tested = assert_crossings_change_the_number(&analysis, class, &surface, 0.004);
+    let tested = assert_crossings_change_the_number(&analysis, class, &surface, 0.003, 0.04);
     eprintln!("{tested} crossings");
     assert!(tested >= 50, "{tested} crossings");
 }
@@ -332,7 +337,7 @@ fn three_rpr_characteristic_surfaces() {
             let (q, of) = (lengths(&vertex.pose), lengths(&surface.sources[vertex.source as usize].pose));
             assert!((0..3).all(|j| (q[j] - of[j]).abs() < 1e-8), "{q:?} {of:?}");
         }
-        let tested = assert_crossings_change_the_number(&analysis, class, &surface, 0.004);
+        let tested = assert_crossings_change_the_number(&analysis, class, &surface, 0.003, 0.04);
         eprintln!("{tested} crossings");
         assert!(tested >= 50, "{tested} crossings");
     }

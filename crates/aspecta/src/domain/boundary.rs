@@ -109,8 +109,9 @@ pub struct Boundary {
     /// Index of its class.
     #[serde(skip)]
     pub(crate) class: usize,
+    /// The diagonal of a cell of the grid, in widths of the window.
     #[serde(skip)]
-    lattice: Lattice,
+    pub(crate) cell: f64,
 }
 
 /// Why there is no boundary.
@@ -153,33 +154,18 @@ impl Boundary {
     }
 
     /// Whether a pose of its class, strictly inside it, lies in the aspect; `None` if it cannot be told. Certified where the analysis
-    /// decides; else by the grid: some node of its cell is seen from it within the class.
+    /// decides; else by a way inward, sampled.
     pub(crate) fn holds<const D: usize, const N: usize>(
         &self,
         analysis: &Analysis,
         field: &Field<'_, D, N>,
         pose: &[f64; N],
     ) -> Option<bool> {
-        use crate::aspect::Place;
         let class = &analysis.classes[self.class];
         if class.low == 1 && class.high == Some(1) {
             return Some(true);
         }
-        if let Place::Inside(id) = analysis.locate(self.class, pose) {
-            return Some(id == self.aspect);
-        }
-        let seen = |node: &usize| {
-            let far = self.lattice.pose::<N>(*node);
-            (1..8).all(|t| field.violated(&field.between(pose, &far, f64::from(t) / 8.0), &[]).is_none())
-        };
-        let tags = self.lattice.around(pose).into_iter().filter(seen).map(|node| self.lattice.tags[node]);
-        let mut known = tags.filter(|tag| matches!(tag, lattice::Tag::Member | lattice::Tag::Other));
-        known.next().map(|tag| tag == lattice::Tag::Member)
-    }
-
-    /// The diagonal of a cell, in widths of the window.
-    pub(crate) fn cell<const D: usize, const N: usize>(&self, field: &Field<'_, D, N>) -> f64 {
-        self.lattice.diagonal(field)
+        Some(field.aspect_of(analysis, self.class, pose, self.cell)? == self.aspect)
     }
 }
 
@@ -212,14 +198,14 @@ fn extract<const D: usize, const N: usize>(
         aspect: id,
         mode: of.mode,
         det_a: of.det_a,
-        axes: lattice.axes.clone(),
+        axes: lattice.axes,
         cells,
         unplaced: vertices.iter().filter(|v| !v.placed()).count(),
         vertices,
         simplices,
         unassigned,
         class,
-        lattice,
+        cell,
     }
 }
 

@@ -20,7 +20,7 @@ use net::Net;
 use serde::Serialize;
 
 /// How often an edge of the boundary is halved where its solutions do not pair.
-pub const ROUNDS: usize = 4;
+pub const ROUNDS: usize = 3;
 /// Direct solutions nearer than this, in widths of the window, are one.
 pub const APART: f64 = 1e-5;
 /// How well g_i(X′) and q agree: rad or length units.

@@ -1,7 +1,7 @@
 //! The functions whose common positivity region is a class of aspects, in plain doubles, with their gradients.
 
 use super::Face;
-use crate::aspect::DetSign;
+use crate::aspect::{Analysis, DetSign, Place};
 use crate::kinematics::WorkingMode;
 use crate::kinematics::leg::{Drive, drive};
 use crate::kinematics::limits::margin;
@@ -115,15 +115,51 @@ impl<const D: usize, const N: usize> Field<'_, D, N> {
         each!(|j| if flat >> j & 1 == 1 { T::zero() } else { legs[j].closure.reach.sqrt() })
     }
 
-    /// Value and gradient, per width of the window, of the function of each face at x.
-    fn linear(&self, x: &[f64; N], faces: &[Option<Face>; 3]) -> [Option<Jet<f64, N>>; 3] {
-        let jets: [Jet<f64, N>; N] = std::array::from_fn(|k| {
+    /// The coordinates as variables that count in widths of the window.
+    fn jets(&self, x: &[f64; N]) -> [Jet<f64, N>; N] {
+        std::array::from_fn(|k| {
             let mut x = Jet::variable(x[k], k);
             x.gradient[k] = self.width(k);
             x
+        })
+    }
+
+    /// The direction (of length 1, in widths of the window) away from the nearest face, by value / ‖gradient‖.
+    fn inward(&self, x: &[f64; N]) -> [f64; N] {
+        let mut nearest = (f64::INFINITY, [0.0; N]);
+        self.visit(&self.jets(x), 0, |_, value| {
+            let size = norm(&value.gradient);
+            if value.value / size < nearest.0 {
+                nearest = (value.value / size, value.gradient.map(|g| g / size));
+            }
+            true
         });
+        nearest.1
+    }
+
+    /// The aspect of class number `class` in which x lies, strictly inside the class: that of the first place known to `analysis` on
+    /// a way inward, along which the class is not left as far as samples show. `None` if there is none within ten times `cell`.
+    pub fn aspect_of(&self, analysis: &Analysis, class: usize, x: &[f64; N], cell: f64) -> Option<usize> {
+        const STEPS: usize = 40;
+        let mut at = *x;
+        for _ in 0..STEPS {
+            if let Place::Inside(id) = analysis.locate(class, &at) {
+                return Some(id);
+            }
+            let inward = self.inward(&at);
+            let keeps = |step: &f64| {
+                (1..=4).all(|t| self.violated(&self.moved(&at, &inward, 0.25 * f64::from(t) * step), &[]).is_none())
+            };
+            let mut steps = (2..10).map(|halvings| cell / f64::from(1 << halvings));
+            at = self.moved(&at, &inward, steps.find(keeps)?);
+        }
+        None
+    }
+
+    /// Value and gradient, per width of the window, of the function of each face at x.
+    fn linear(&self, x: &[f64; N], faces: &[Option<Face>; 3]) -> [Option<Jet<f64, N>>; 3] {
         let mut found = [None; 3];
-        self.visit(&jets, flat_legs(faces), |face, value| {
+        self.visit(&self.jets(x), flat_legs(faces), |face, value| {
             if let Some(m) = faces.iter().position(|f| *f == Some(face)) {
                 found[m] = Some(value);
             }

@@ -118,8 +118,8 @@ impl Lattice {
     }
 
     /// Finds out which nodes lie in the aspect: those of the class that the analysis locates there, and those it leaves undecided
-    /// that are nearest to one of them by steps within the class. If the class is proved to have one aspect, all its nodes do.
-    /// Returns how many nodes of the class could not be assigned.
+    /// that are joined to one of them by steps within the class (to the nearest) or by a way inward. If the class is proved
+    /// to have one aspect, all its nodes do. Returns how many nodes of the class could not be assigned.
     pub fn tag<const D: usize, const N: usize>(
         &mut self,
         analysis: &Analysis,
@@ -142,7 +142,16 @@ impl Lattice {
         };
         self.tags = (0..self.tags.len()).into_par_iter().map(tag).collect();
         self.flood();
-        self.tags.iter().filter(|&&tag| tag == Tag::Unknown).count()
+        let cell = self.diagonal(field);
+        let unknown: Vec<usize> = (0..self.tags.len()).filter(|&node| self.tags[node] == Tag::Unknown).collect();
+        let mut left = 0;
+        for node in unknown {
+            match field.aspect_of(analysis, class, &self.pose::<N>(node), cell) {
+                Some(id) => self.tags[node] = if id == aspect { Tag::Member } else { Tag::Other },
+                None => left += 1,
+            }
+        }
+        left
     }
 
     /// Spreads known tags to unknown nodes, nearest first.
@@ -164,28 +173,6 @@ impl Lattice {
     /// Whether the node lies in the aspect.
     pub fn is_member(&self, node: usize) -> bool {
         self.tags[node] == Tag::Member
-    }
-
-    /// The nodes of the cell that holds a pose; none if it lies off the grid.
-    pub fn around<const N: usize>(&self, pose: &[f64; N]) -> Vec<usize> {
-        let mut index = [0; 3];
-        for (a, &k) in self.axes.iter().enumerate() {
-            let turn = std::f64::consts::TAU;
-            let angle = self.wraps[a] || (pose[k] < self.lo[a] && self.turns_into(a, pose[k] + turn));
-            let x = if angle { (pose[k] - self.lo[a]).rem_euclid(turn) } else { pose[k] - self.lo[a] };
-            let at = (x / self.spacing[a]).floor();
-            if at < 0.0 || at >= self.nodes[a] as f64 {
-                return Vec::new();
-            }
-            index[a] = at as usize;
-        }
-        let first = self.join(index);
-        std::iter::once(first).chain(self.steps().filter_map(|step| self.ahead(first, step))).collect()
-    }
-
-    /// Whether x lies in the range of the axis.
-    fn turns_into(&self, a: usize, x: f64) -> bool {
-        (self.lo[a]..=self.lo[a] + self.spacing[a] * (self.nodes[a] - 1) as f64).contains(&x)
     }
 
     /// The simplices of the boundary, in the order of their cells.

@@ -11,9 +11,12 @@ use std::collections::HashMap;
 const MOST: usize = 16;
 /// Newton's method arrives at a solution this near to it, in widths of the window.
 const ARRIVED: f64 = 1e-8;
+/// How much faster than X a solution may move and be paired with the last one left.
+const LEAP: f64 = 4.0;
 
 /// A vertex of the boundary, its joint vector and the other direct solutions in the aspect.
 struct Station<const N: usize> {
+    x: [f64; N],
     q: [f64; N],
     others: ArrayVec<[f64; N], MOST>,
     unsolved: bool,
@@ -90,7 +93,7 @@ impl<'a, const D: usize, const N: usize> Net<'a, D, N> {
     fn station(&self, vertex: &BoundaryVertex) -> Station<N> {
         let x: [f64; N] = std::array::from_fn(|k| vertex.pose[k]);
         let q = self.field.joints(&x, &vertex.faces);
-        let mut station = Station { q, others: ArrayVec::new(), unsolved: true, unlocated: 0 };
+        let mut station = Station { x, q, others: ArrayVec::new(), unsolved: true, unlocated: 0 };
         if !vertex.placed() {
             return station;
         }
@@ -125,7 +128,9 @@ impl<'a, const D: usize, const N: usize> Net<'a, D, N> {
         Pairings { edges, pairs }
     }
 
-    /// Solutions are partners if Newton's method leads from each to the other.
+    /// Solutions are partners if Newton's method leads from each to the other; and so are the last two that are left over, if they are
+    /// no farther apart than [`LEAP`] times the edge is long. (Near a cusp Newton's method reaches only as far as the solution is
+    /// from X, however short the edge.)
     fn pair(&self, u: u32, v: u32) -> Pairing {
         let (a, b) = (&self.stations[u as usize], &self.stations[v as usize]);
         let arrives = |from: &[f64; N], to: &Station<N>| {
@@ -136,7 +141,15 @@ impl<'a, const D: usize, const N: usize> Net<'a, D, N> {
             let k = arrives(x, b)?;
             (arrives(&b.others[k], a) == Some(i)).then_some(k as u8)
         };
-        a.others.iter().enumerate().map(partner).collect()
+        let mut pairing: Pairing = a.others.iter().enumerate().map(partner).collect();
+        let mut left = (0..b.others.len()).filter(|&k| !pairing.contains(&Some(k as u8)));
+        let mut lonely = (0..pairing.len()).filter(|&i| pairing[i].is_none());
+        if let (Some(k), None, Some(i), None) = (left.next(), left.next(), lonely.next(), lonely.next())
+            && self.field.distance(&a.others[i], &b.others[k]) <= LEAP * self.field.distance(&a.x, &b.x)
+        {
+            pairing[i] = Some(k as u8);
+        }
+        pairing
     }
 
     fn is_paired(&self, pairings: &Pairings, (u, v): (u32, u32)) -> bool {
@@ -217,10 +230,9 @@ impl<'a, const D: usize, const N: usize> Net<'a, D, N> {
         let pose = |vertex: &BoundaryVertex| -> [f64; N] { std::array::from_fn(|k| vertex.pose[k]) };
         let at = self.field.between(&pose(a), &pose(b), 0.5);
         let common = a.faces.map(|f| f.filter(|_| b.faces.contains(&f)));
-        let cell = self.boundary.cell(&self.field);
         let choices = [common, [Some(face), None, None]];
         let found = choices.into_iter().filter(|f| f.iter().any(Option::is_some));
-        let mut found = found.filter_map(|faces| onto(&self.field, &at, faces, cell));
+        let mut found = found.filter_map(|faces| onto(&self.field, &at, faces, self.boundary.cell));
         found.next().unwrap_or(BoundaryVertex {
             pose: at.to_vec(),
             faces: [Some(face), None, None],
