@@ -13,10 +13,10 @@ mod lattice;
 pub(crate) use corner::onto;
 pub(crate) use field::Field;
 
-use crate::aspect::{Analysis, DetSign};
+use crate::aspect::{Analysis, DetSign, Place};
 use crate::kinematics::modal::Constraint;
 use crate::kinematics::{WorkingMode, for_platform};
-use lattice::{Edge, Lattice};
+use lattice::{Edge, Lattice, Tag};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -112,6 +112,8 @@ pub struct Boundary {
     /// The diagonal of a cell of the grid, in widths of the window.
     #[serde(skip)]
     pub(crate) cell: f64,
+    #[serde(skip)]
+    lattice: Lattice,
 }
 
 /// Why there is no boundary.
@@ -126,7 +128,9 @@ pub enum BoundaryError {
         count: usize,
     },
     /// A slice along a line.
-    #[error("the boundary of an aspect needs two or three coordinates that vary, but {0} does: free one more")]
+    #[error(
+        "the boundary of an aspect needs two or three coordinates that vary, but {0} does: free one more"
+    )]
     Line(usize),
     /// Resolution out of range.
     #[error("a grid of {0} cells per axis cannot be: choose 4 to 2000 in two dimensions, 4 to 300 in three")]
@@ -154,7 +158,7 @@ impl Boundary {
     }
 
     /// Whether a pose of its class, strictly inside it, lies in the aspect; `None` if it cannot be told. Certified where the analysis
-    /// decides; else by a way inward, sampled.
+    /// decides; else by what is seen from it within the class, sampled: a node of its cell, or a place uphill.
     pub(crate) fn holds<const D: usize, const N: usize>(
         &self,
         analysis: &Analysis,
@@ -164,6 +168,20 @@ impl Boundary {
         let class = &analysis.classes[self.class];
         if class.low == 1 && class.high == Some(1) {
             return Some(true);
+        }
+        if let Place::Inside(id) = analysis.locate(self.class, pose) {
+            return Some(id == self.aspect);
+        }
+        let seen = |node: &usize| {
+            let far = self.lattice.pose::<N>(*node);
+            (1..8).all(|t| field.violated(&field.between(pose, &far, f64::from(t) / 8.0), &[]).is_none())
+        };
+        for node in self.lattice.around(pose) {
+            match self.lattice.tags[node] {
+                Tag::Member if seen(&node) => return Some(true),
+                Tag::Other if seen(&node) => return Some(false),
+                _ => {}
+            }
         }
         Some(field.aspect_of(analysis, self.class, pose, self.cell)? == self.aspect)
     }
@@ -198,7 +216,7 @@ fn extract<const D: usize, const N: usize>(
         aspect: id,
         mode: of.mode,
         det_a: of.det_a,
-        axes: lattice.axes,
+        axes: lattice.axes.clone(),
         cells,
         unplaced: vertices.iter().filter(|v| !v.placed()).count(),
         vertices,
@@ -206,6 +224,7 @@ fn extract<const D: usize, const N: usize>(
         unassigned,
         class,
         cell,
+        lattice,
     }
 }
 
@@ -219,7 +238,7 @@ fn vertex<const D: usize, const N: usize>(
     let (inside, outside) = if lattice.is_member(node) { (node, ahead) } else { (ahead, node) };
     let (inside, outside) = (lattice.pose::<N>(inside), lattice.pose::<N>(outside));
     // Between two aspects of one class both ends are positive: look for what parts them.
-    const PARTS: u32 = 32;
+    const PARTS: u32 = 4096;
     let part = |t: u32| field.between(&inside, &outside, f64::from(t) / f64::from(PARTS));
     let parted = || (1..PARTS).map(part).find(|pose| field.violated(pose, &[]).is_some());
     let beyond = if field.violated(&outside, &[]).is_some() { Some(outside) } else { parted() };

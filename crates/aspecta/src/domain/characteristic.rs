@@ -13,8 +13,8 @@ mod net;
 
 use crate::aspect::Analysis;
 use crate::domain::boundary::{Boundary, BoundaryVertex, Field, Simplex};
-use crate::kinematics::modal::Constraint;
 use crate::kinematics::for_platform;
+use crate::kinematics::modal::Constraint;
 use crate::robot::{Limit, Platform};
 use net::Net;
 use serde::Serialize;
@@ -100,7 +100,9 @@ impl Characteristic {
             return Err(CharacteristicError::NoDirectModel(platform));
         }
         let class = analysis.classes.get(boundary.class).filter(|c| {
-            c.mode == boundary.mode && c.det_a == boundary.det_a && c.aspects.iter().any(|a| a.id == boundary.aspect)
+            c.mode == boundary.mode
+                && c.det_a == boundary.det_a
+                && c.aspects.iter().any(|a| a.id == boundary.aspect)
         });
         if class.is_none() {
             return Err(CharacteristicError::Stranger(boundary.aspect));

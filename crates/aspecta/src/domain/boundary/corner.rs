@@ -48,7 +48,14 @@ pub fn sharpen<const D: usize, const N: usize>(
             [None, None, None] => push([a, b, c], a),
             [Some(p), Some(q), Some(r)] => {
                 let m = vertices.len() as u32;
-                let parts = [([a, p, m], a), ([p, b, m], b), ([b, q, m], b), ([q, c, m], c), ([c, r, m], c), ([r, a, m], a)];
+                let parts = [
+                    ([a, p, m], a),
+                    ([p, b, m], b),
+                    ([b, q, m], b),
+                    ([q, c, m], c),
+                    ([c, r, m], c),
+                    ([r, a, m], a),
+                ];
                 parts.into_iter().for_each(|(part, of)| push(part, of));
                 vertices.push(meeting(field, vertices, &[a, b, c], cell));
             }

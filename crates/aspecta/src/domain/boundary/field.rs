@@ -124,21 +124,29 @@ impl<const D: usize, const N: usize> Field<'_, D, N> {
         })
     }
 
-    /// The direction (of length 1, in widths of the window) away from the nearest face, by value / ‖gradient‖.
-    fn inward(&self, x: &[f64; N]) -> [f64; N] {
-        let mut nearest = (f64::INFINITY, [0.0; N]);
+    /// U = Σ log f over all functions f of the class; −∞ on its boundary and outside.
+    fn height(&self, x: &[f64; N]) -> f64 {
+        let mut sum = 0.0;
+        self.visit::<f64>(x, 0, |_, value| {
+            sum += if value > 0.0 { value.ln() } else { f64::NEG_INFINITY };
+            sum > f64::NEG_INFINITY
+        });
+        sum
+    }
+
+    /// The direction of ∇U, of length 1 in widths of the window.
+    fn uphill(&self, x: &[f64; N]) -> [f64; N] {
+        let mut sum = [0.0; N];
         self.visit(&self.jets(x), 0, |_, value| {
-            let size = norm(&value.gradient);
-            if value.value / size < nearest.0 {
-                nearest = (value.value / size, value.gradient.map(|g| g / size));
-            }
+            (0..N).for_each(|k| sum[k] += value.gradient[k] / value.value);
             true
         });
-        nearest.1
+        let size = norm(&sum);
+        sum.map(|g| g / size)
     }
 
     /// The aspect of class number `class` in which x lies, strictly inside the class: that of the first place known to `analysis` on
-    /// a way inward, along which the class is not left as far as samples show. `None` if there is none within ten times `cell`.
+    /// a climb of U, which does not leave the class as far as samples show. `None` if there is none within ten times `cell`.
     pub fn aspect_of(&self, analysis: &Analysis, class: usize, x: &[f64; N], cell: f64) -> Option<usize> {
         const STEPS: usize = 40;
         let mut at = *x;
@@ -146,12 +154,13 @@ impl<const D: usize, const N: usize> Field<'_, D, N> {
             if let Place::Inside(id) = analysis.locate(class, &at) {
                 return Some(id);
             }
-            let inward = self.inward(&at);
-            let keeps = |step: &f64| {
-                (1..=4).all(|t| self.violated(&self.moved(&at, &inward, 0.25 * f64::from(t) * step), &[]).is_none())
+            let (here, way) = (self.height(&at), self.uphill(&at));
+            let on = |part: f64| self.height(&self.moved(&at, &way, part));
+            let climbs = |step: &f64| {
+                on(*step) > here && (1..4).all(|t| on(0.25 * f64::from(t) * step) > f64::NEG_INFINITY)
             };
-            let mut steps = (2..10).map(|halvings| cell / f64::from(1 << halvings));
-            at = self.moved(&at, &inward, steps.find(keeps)?);
+            let mut steps = (2..24).map(|halvings| cell / f64::from(1 << halvings));
+            at = self.moved(&at, &way, steps.find(climbs)?);
         }
         None
     }
@@ -173,7 +182,11 @@ impl<const D: usize, const N: usize> Field<'_, D, N> {
     pub fn offset(&self, x: &[f64; N], faces: &[Option<Face>; 3]) -> f64 {
         let relative = |j: &Jet<f64, N>| j.value.abs() / norm(&j.gradient);
         let values = self.linear(x, faces);
-        let far = values.iter().flatten().map(relative).fold(0.0, |m: f64, v| if v > m || v.is_nan() { v } else { m });
+        let far = values
+            .iter()
+            .flatten()
+            .map(relative)
+            .fold(0.0, |m: f64, v| if v > m || v.is_nan() { v } else { m });
         if far.is_finite() { far } else { f64::INFINITY }
     }
 

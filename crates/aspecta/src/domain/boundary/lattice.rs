@@ -8,6 +8,7 @@ use super::field::Field;
 use crate::aspect::{Analysis, Aspect, Place};
 use rayon::prelude::*;
 use std::collections::VecDeque;
+use std::f64::consts::TAU;
 
 /// What a node is to the aspect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,6 +36,8 @@ pub struct Lattice {
     nodes: [usize; 3],
     /// Whether the last node of an axis is followed by the first.
     wraps: [bool; 3],
+    /// Whether the coordinate counts modulo 2π.
+    turns: [bool; 3],
     /// A pose that has the values of the coordinates that are held.
     base: Vec<f64>,
     /// Node by node.
@@ -53,13 +56,13 @@ impl Lattice {
     pub fn new(analysis: &Analysis, aspect: &Aspect, cells: usize) -> Self {
         let axes = analysis.paving.axes.clone();
         let (mut lo, mut spacing) = ([0.0; 3], [0.0; 3]);
-        let (mut nodes, mut wraps) = ([1; 3], [false; 3]);
+        let (mut nodes, mut wraps, mut turns) = ([1; 3], [false; 3], [false; 3]);
         for (a, &k) in axes.iter().enumerate() {
             let (from, to) = aspect.w_bounds[k];
             let step = (to - from) / cells as f64;
-            let turn = std::f64::consts::TAU;
-            if analysis.window.glued[k] && to - from + 2.0 * step >= turn {
-                (lo[a], spacing[a], nodes[a], wraps[a]) = (from, turn / cells as f64, cells, true);
+            turns[a] = analysis.window.glued[k];
+            if turns[a] && to - from + 2.0 * step >= TAU {
+                (lo[a], spacing[a], nodes[a], wraps[a]) = (from, TAU / cells as f64, cells, true);
             } else {
                 // One cell more all round, and off the planes of symmetry that robots have.
                 (lo[a], spacing[a], nodes[a]) = (from - 0.618 * step, step, cells + 3);
@@ -67,7 +70,7 @@ impl Lattice {
         }
         let base = aspect.w_bounds.iter().map(|r| r.0).collect();
         let count = nodes.iter().product();
-        Self { axes, lo, spacing, nodes, wraps, base, tags: vec![Tag::Outside; count] }
+        Self { axes, lo, spacing, nodes, wraps, turns, base, tags: vec![Tag::Outside; count] }
     }
 
     /// The pose of a node; a glued coordinate may lie beyond ±π.
@@ -143,7 +146,8 @@ impl Lattice {
         self.tags = (0..self.tags.len()).into_par_iter().map(tag).collect();
         self.flood();
         let cell = self.diagonal(field);
-        let unknown: Vec<usize> = (0..self.tags.len()).filter(|&node| self.tags[node] == Tag::Unknown).collect();
+        let unknown: Vec<usize> =
+            (0..self.tags.len()).filter(|&node| self.tags[node] == Tag::Unknown).collect();
         let mut left = 0;
         for node in unknown {
             match field.aspect_of(analysis, class, &self.pose::<N>(node), cell) {
@@ -175,10 +179,28 @@ impl Lattice {
         self.tags[node] == Tag::Member
     }
 
+    /// The nodes of the cell that holds a pose of the window; none if it lies off the grid.
+    pub fn around<const N: usize>(&self, pose: &[f64; N]) -> Vec<usize> {
+        let mut index = [0; 3];
+        for (a, &k) in self.axes.iter().enumerate() {
+            let end = if self.wraps[a] { self.nodes[a] } else { self.nodes[a] - 1 } as f64;
+            let at = |x: f64| ((x - self.lo[a]) / self.spacing[a]).floor();
+            // An axis may run over ±π.
+            let turns = [0.0, TAU, -TAU].map(|turn| at(pose[k] + turn));
+            match turns.into_iter().take(if self.turns[a] { 3 } else { 1 }).find(|i| (0.0..end).contains(i)) {
+                Some(at) => index[a] = at as usize,
+                None => return Vec::new(),
+            }
+        }
+        let first = self.join(index);
+        std::iter::once(first).chain(self.steps().filter_map(|step| self.ahead(first, step))).collect()
+    }
+
     /// The simplices of the boundary, in the order of their cells.
     pub fn cuts(&self) -> Vec<Cut> {
         let orders = orders(self.axes.len());
-        let of_cell = |node: usize| orders.iter().flat_map(move |order| self.cut(node, order)).collect::<Vec<_>>();
+        let of_cell =
+            |node: usize| orders.iter().flat_map(move |order| self.cut(node, order)).collect::<Vec<_>>();
         (0..self.tags.len()).into_par_iter().flat_map_iter(of_cell).collect()
     }
 
@@ -227,7 +249,8 @@ impl Lattice {
                 (false, _) => [cut[0], cut[2], cut[1]],
             }
         };
-        let pairs: Vec<(usize, usize)> = inner.iter().flat_map(|&i| outer.iter().map(move |&o| (i, o))).collect();
+        let pairs: Vec<(usize, usize)> =
+            inner.iter().flat_map(|&i| outer.iter().map(move |&o| (i, o))).collect();
         match pairs[..] {
             [a, b] => vec![oriented([a, b, b])],
             [a, b, c] => vec![oriented([a, b, c])],

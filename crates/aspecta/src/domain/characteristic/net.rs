@@ -201,7 +201,8 @@ impl<'a, const D: usize, const N: usize> Net<'a, D, N> {
     /// Halves the edges that do not pair and splits the simplices that have them.
     pub fn halve(&mut self, pairings: &Pairings, simplices: &[Simplex]) -> Vec<Simplex> {
         let edges = simplices.iter().flat_map(|s| s.edges(self.dimension).map(|edge| (edge, s.face)));
-        let mut bad: Vec<((u32, u32), Face)> = edges.filter(|(edge, _)| !self.is_paired(pairings, *edge)).collect();
+        let mut bad: Vec<((u32, u32), Face)> =
+            edges.filter(|(edge, _)| !self.is_paired(pairings, *edge)).collect();
         bad.sort_by_key(|(edge, _)| *edge);
         bad.dedup_by_key(|(edge, _)| *edge);
         let middles: Vec<_> = bad.par_iter().map(|&((u, v), face)| self.middle(u, v, face)).collect();
