@@ -2,8 +2,9 @@
 //!
 //! *Numerical*, on the mesh of the boundary. At every vertex X of the boundary the joint vector q = g_i(X) is taken (at a serial
 //! singularity by continuity), the direct problem of q is solved, and the solutions other than X that lie in the same aspect
-//! are kept. Along the mesh's edges they are followed by Newton's method, there and back; where that is not clear, or a
-//! solution has no partner, the edge is halved on the boundary, [`ROUNDS`] times at most. The surface ends where its
+//! are kept. Along the mesh's edges they are followed by Newton's method, there and back; where that is not clear, a
+//! solution has no partner or its partner is farther away than a cell's diagonal, the edge is halved on the boundary,
+//! [`ROUNDS`] times at most. The surface ends where its
 //! solutions leave the aspect, so its rim lies on the boundary; the mesh stops short of it by up to 2^−[`ROUNDS`] of a cell.
 //!
 //! Tolerances: solutions nearer than [`APART`] to X are X itself (at a parallel singularity X is a double solution, which rounding

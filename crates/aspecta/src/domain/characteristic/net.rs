@@ -152,14 +152,18 @@ impl<'a, const D: usize, const N: usize> Net<'a, D, N> {
         pairing
     }
 
-    fn is_paired(&self, pairings: &Pairings, (u, v): (u32, u32)) -> bool {
-        let count = |w: u32| self.stations[w as usize].others.len();
-        count(u) == count(v) && pairings.of(u, v).is_some_and(|p| p.iter().all(Option::is_some))
+    /// Whether all solutions at the ends of an edge pair, none farther from its partner than the diagonal of a cell.
+    fn is_fine(&self, pairings: &Pairings, (u, v): (u32, u32)) -> bool {
+        let (a, b) = (&self.stations[u as usize].others, &self.stations[v as usize].others);
+        let is_short = |(x, partner): (&[f64; N], &Option<u8>)| {
+            partner.is_some_and(|k| self.field.distance(x, &b[usize::from(k)]) <= self.boundary.cell)
+        };
+        a.len() == b.len() && pairings.of(u, v).is_some_and(|p| a.iter().zip(p).all(is_short))
     }
 
-    /// Whether all solutions at the corners pair along all edges.
+    /// Whether all solutions at the corners pair along all edges, and nearby.
     pub fn is_clear(&self, pairings: &Pairings, simplex: &Simplex) -> bool {
-        simplex.edges(self.dimension).all(|edge| self.is_paired(pairings, edge))
+        simplex.edges(self.dimension).all(|edge| self.is_fine(pairings, edge))
     }
 
     /// Whether all corners have equally many solutions.
@@ -198,11 +202,11 @@ impl<'a, const D: usize, const N: usize> Net<'a, D, N> {
         })
     }
 
-    /// Halves the edges that do not pair and splits the simplices that have them.
+    /// Halves the edges that are not fine and splits the simplices that have them.
     pub fn halve(&mut self, pairings: &Pairings, simplices: &[Simplex]) -> Vec<Simplex> {
         let edges = simplices.iter().flat_map(|s| s.edges(self.dimension).map(|edge| (edge, s.face)));
         let mut bad: Vec<((u32, u32), Face)> =
-            edges.filter(|(edge, _)| !self.is_paired(pairings, *edge)).collect();
+            edges.filter(|(edge, _)| !self.is_fine(pairings, *edge)).collect();
         bad.sort_by_key(|(edge, _)| *edge);
         bad.dedup_by_key(|(edge, _)| *edge);
         let middles: Vec<_> = bad.par_iter().map(|&((u, v), face)| self.middle(u, v, face)).collect();
