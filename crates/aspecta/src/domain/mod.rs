@@ -7,6 +7,8 @@
 //!
 //! The regions are numerical: sets of nodes of a grid, true to a cell. [`cusps`], where three direct solutions meet, are certified.
 
+pub mod boundary;
+pub mod characteristic;
 pub mod cusps;
 mod grid;
 mod images;
