@@ -18,14 +18,15 @@ pub type Joints = [f64; 6];
 /// An aspect A_ij: the poses of WA_ij, and g_i on them.
 ///
 /// Whether a pose lies in the class (working mode and sign of det A) is computed in doubles, hence numerical at distances from its
-/// boundary that rounding blurs; which aspect of the class it lies in is certified ([`Analysis::aspect_at`]).
+/// boundary that rounding blurs. Which aspect of the class it lies in is certified ([`Analysis::aspect_at`]), except that where the
+/// analysis found one aspect only, the whole class counts as it.
 pub struct Sheet<'a> {
     analysis: &'a Analysis,
     class: usize,
     id: usize,
     mode: WorkingMode,
     sign: f64,
-    /// Whether the class is proved to have no other aspect.
+    /// Whether no other aspect of the class was found.
     alone: bool,
 }
 
@@ -35,7 +36,7 @@ impl<'a> Sheet<'a> {
         let (class, _) = analysis.aspect(id)?;
         let entry = &analysis.classes[class];
         let (mode, sign) = (entry.mode, f64::from(entry.det_a.factor()));
-        Some(Self { analysis, class, id, mode, sign, alone: entry.high == Some(1) })
+        Some(Self { analysis, class, id, mode, sign, alone: entry.aspects.len() == 1 })
     }
 
     /// g_i(X), if X lies in the aspect.

@@ -3,7 +3,7 @@
 use super::Face;
 use crate::aspect::{Analysis, DetSign, Place};
 use crate::kinematics::WorkingMode;
-use crate::kinematics::leg::{Drive, drive};
+use crate::kinematics::leg::drive;
 use crate::kinematics::limits::margin;
 use crate::kinematics::modal::{Constraint, LegClosure, ModalRows, closures};
 use crate::kinematics::placement::{Placement, leg_gradient, wrench};
@@ -253,10 +253,7 @@ impl<const D: usize, const N: usize> Field<'_, D, N> {
         let heights = self.heights(&legs, flat_legs(faces));
         std::array::from_fn(|j| {
             let sh = f64::from(self.mode.sign(j)) * heights[j];
-            match drive(&self.robot.legs[j].actuator, &legs[j].span, &legs[j].closure, sh) {
-                Drive::Angle { cos, sin, .. } => sin.atan2(cos),
-                Drive::Length(q) => q,
-            }
+            drive(&self.robot.legs[j].actuator, &legs[j].span, &legs[j].closure, sh).value()
         })
     }
 
