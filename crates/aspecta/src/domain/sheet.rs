@@ -100,9 +100,9 @@ impl<'a> Sheet<'a> {
     }
 
     /// How far, in cells, a pose may jump and still count as moving continuously.
-    const STRIDE: f64 = 2.0;
+    pub const STRIDE: f64 = 2.0;
     /// How often a segment is halved.
-    const FINEST: u32 = 10;
+    pub const FINEST: u32 = 10;
 
     fn follow_on(
         &self,
