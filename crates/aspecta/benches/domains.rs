@@ -14,7 +14,8 @@ fn partition(c: &mut Criterion) {
     let control = Control { cancelled: &never, progress: &|_| {} };
     let robot = catalogue::find("3-rrr").expect("a robot of the catalogue");
     let budget = Budget { depth: Some(6), ..Budget::default() };
-    let analysis = analyze(&robot, &Options { budget, ..Options::default() }, &control).expect("a bounded robot");
+    let analysis =
+        analyze(&robot, &Options { budget, ..Options::default() }, &control).expect("a bounded robot");
     let mut group = c.benchmark_group("domains");
     group.sample_size(10).measurement_time(Duration::from_secs(60));
     for cells in [100, 200] {

@@ -190,6 +190,15 @@ fn print(out: &mut dyn Write, robot: &Robot, found: &Found) -> Result<(), Failur
         "\nchecked: {} of {} random poses away from the surfaces have as many direct solutions as their region",
         agreement.agree, agreement.away
     )?;
+    for c in found.coincidences.iter().filter(|c| c.shares.0.min(c.shares.1) < WHOLE).take(LISTED) {
+        let ((a, b), (in_b, in_a)) = (c.regions, c.shares);
+        writeln!(
+            out,
+            "images of regions {a} and {b} meet in part ({}, {}): more --cells would tell regions apart or show them whole",
+            percent(in_b),
+            percent(in_a)
+        )?;
+    }
     for violation in found.violations.iter().take(LISTED) {
         let [a, b] = &violation.poses;
         writeln!(
@@ -205,6 +214,9 @@ fn print(out: &mut dyn Write, robot: &Robot, found: &Found) -> Result<(), Failur
     }
     Ok(writeln!(out)?)
 }
+
+/// Images that coincide to this share are said to coincide: the rest is as much as a grid errs near surfaces.
+const WHOLE: f64 = 0.95;
 
 /// Rows shown; the rest is in the JSON.
 const LISTED: usize = 20;

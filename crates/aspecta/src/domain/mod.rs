@@ -7,6 +7,7 @@
 //!
 //! The regions are numerical: sets of nodes of a grid, true to a cell. [`cusps`], where three direct solutions meet, are certified.
 
+mod analysis;
 pub mod boundary;
 pub mod characteristic;
 pub mod cusps;
@@ -17,9 +18,10 @@ mod result;
 mod sheet;
 mod uniqueness;
 
+pub use analysis::domains;
 pub use partition::{OUTSIDE, Partition};
 pub use result::{
     Agreement, BasicRegion, Coincidence, Disagreement, DomainError, DomainOptions, Domains, UniquenessDomain,
-    Unresolved, Violation, domains,
+    Unresolved, Violation,
 };
 pub use sheet::Sheet;

@@ -5,7 +5,7 @@ use super::sheet::{Match, Sheet};
 use crate::aspect::UnionFind;
 use crate::paving::{Control, Progress};
 use rayon::prelude::*;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Nodes a task looks at.
@@ -282,26 +282,18 @@ impl Partition {
         ends.into_iter().find(|&(_, node, to)| is_open(node, to)).map(|(_, node, _)| self.region[node])
     }
 
-    /// Pairs of regions (the lesser first) with neighbouring nodes, and how many such pairs of nodes.
-    pub fn adjacent(&self) -> BTreeMap<(u32, u32), usize> {
-        let mut pairs = BTreeMap::new();
-        links(&self.grid, &mut |a, b| {
-            let (a, b) = (self.region[a], self.region[b]);
-            if a != b && a != OUTSIDE && b != OUTSIDE {
-                *pairs.entry((a.min(b), a.max(b))).or_default() += 1;
-            }
-        });
-        pairs
-    }
-}
-
-fn links(grid: &Grid, visit: &mut impl FnMut(usize, usize)) {
-    for node in 0..grid.len() {
-        for k in 0..grid.axes() {
-            if let Some(next) = grid.next(node, k) {
-                visit(node, next);
+    /// Pairs of regions (the lesser first) with neighbouring nodes.
+    pub fn adjacent(&self) -> BTreeSet<(usize, usize)> {
+        let mut pairs = BTreeSet::new();
+        for node in 0..self.grid.len() {
+            for next in (0..self.grid.axes()).filter_map(|k| self.grid.next(node, k)) {
+                let (a, b) = (self.region[node], self.region[next]);
+                if a != b && a != OUTSIDE && b != OUTSIDE {
+                    pairs.insert((a.min(b) as usize, a.max(b) as usize));
+                }
             }
         }
+        pairs
     }
 }
 
