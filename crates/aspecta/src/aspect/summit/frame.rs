@@ -37,8 +37,6 @@ impl<const N: usize, const M: usize> Frame<N, M> {
             let leg = own[i].map(|k| legs[k]);
             if let Some(j) = leg {
                 vectors[i] = directions[i].map(|x| x * heights[j]);
-            }
-            if let Some(j) = leg {
                 climb[i][j] = dot(&gradients[j], &directions[i]) * half;
             }
         }
@@ -56,10 +54,12 @@ impl<const N: usize, const M: usize> Frame<N, M> {
     }
 }
 
+/// M directions, and the surface each belongs to.
+type Directions<const M: usize> = ([[Interval; M]; M], [Option<usize>; M]);
+
 /// M directions: first those tangent to all the surfaces with the given normals, then for each surface k one (marked k) tangent to all
 /// the others.
-#[allow(clippy::type_complexity)]
-fn adapted<const M: usize>(normals: &[[Interval; M]]) -> Option<([[Interval; M]; M], [Option<usize>; M])> {
+fn adapted<const M: usize>(normals: &[[Interval; M]]) -> Option<Directions<M>> {
     let mut directions = [[Interval::point(0.0); M]; M];
     let mut own = [None; M];
     let middles: ArrayVec<[f64; M], M> = normals.iter().map(|n| unit_vector(&n.map(|x| x.mid()))).collect();
