@@ -7,12 +7,11 @@
 //! the slivers between det A = 0 and a serial singularity, which are tangent to each other where they meet.
 
 mod corner;
-mod field;
 mod lattice;
 
 pub(crate) use corner::onto;
-pub(crate) use field::Field;
 
+use super::field::Field;
 use crate::aspect::{Analysis, DetSign, Place};
 use crate::kinematics::modal::Constraint;
 use crate::kinematics::{WorkingMode, for_platform};

@@ -13,7 +13,8 @@
 mod net;
 
 use crate::aspect::Analysis;
-use crate::domain::boundary::{Boundary, BoundaryVertex, Field, Simplex};
+use crate::domain::boundary::{Boundary, BoundaryVertex, Simplex};
+use crate::domain::field::Field;
 use crate::kinematics::for_platform;
 use crate::kinematics::modal::Constraint;
 use crate::robot::{Limit, Platform};

@@ -11,6 +11,7 @@ mod analysis;
 pub mod boundary;
 pub mod characteristic;
 pub mod cusps;
+mod field;
 mod grid;
 mod images;
 mod partition;

@@ -1,12 +1,9 @@
 //! One generalized aspect as a function: its poses, their joint vectors, and the other poses with the same joint vector.
 
+use super::field::Field;
 use super::grid::Grid;
-use crate::aspect::Analysis;
-use crate::kinematics::leg::drive;
-use crate::kinematics::modal::{Constraint, closures, constraints};
-use crate::kinematics::placement::Placement;
+use crate::aspect::{Analysis, DetSign};
 use crate::kinematics::{WorkingMode, for_platform};
-use crate::robot::Robot;
 use arrayvec::ArrayVec;
 
 /// Which pose of a second list each pose of a first one has become.
@@ -25,7 +22,7 @@ pub struct Sheet<'a> {
     class: usize,
     id: usize,
     mode: WorkingMode,
-    sign: f64,
+    sign: DetSign,
     /// Whether no other aspect of the class was found.
     alone: bool,
 }
@@ -35,8 +32,13 @@ impl<'a> Sheet<'a> {
     pub fn new(analysis: &'a Analysis, id: usize) -> Option<Self> {
         let (class, _) = analysis.aspect(id)?;
         let entry = &analysis.classes[class];
-        let (mode, sign) = (entry.mode, f64::from(entry.det_a.factor()));
+        let (mode, sign) = (entry.mode, entry.det_a);
         Some(Self { analysis, class, id, mode, sign, alone: entry.aspects.len() == 1 })
+    }
+
+    fn field<const D: usize, const N: usize>(&self, mode: WorkingMode) -> Field<'a, D, N> {
+        let Analysis { robot, window, .. } = self.analysis;
+        Field { robot, mode, sign: self.sign, window }
     }
 
     /// g_i(X), if X lies in the aspect.
@@ -45,8 +47,7 @@ impl<'a> Sheet<'a> {
         let window = &self.analysis.window;
         let within =
             pose.iter().enumerate().all(|(k, &x)| window.fraction(k, window.turned_in(k, x)).is_some());
-        let joints =
-            within.then(|| for_platform!(robot.platform, in_class(robot, self.mode, self.sign, pose)))??;
+        let joints = within.then(|| for_platform!(robot.platform, in_class(self, pose)))??;
         (self.alone || self.analysis.aspect_at(self.class, pose) == Some(self.id)).then_some(joints)
     }
 
@@ -164,7 +165,7 @@ impl<'a> Sheet<'a> {
     /// other posture.
     fn is_posture(&self, pose: &[f64], found: &Joints, asked: &Joints) -> bool {
         let robot = &self.analysis.robot;
-        let turned_over = for_platform!(robot.platform, joints_in(robot, self.mode.opposite(), pose));
+        let turned_over = for_platform!(robot.platform, turned_over(self, pose));
         robot.legs.iter().enumerate().filter(|(_, leg)| leg.actuator.postures() == 2).all(|(j, leg)| {
             let gap =
                 |q: f64| (if leg.actuator.is_angle() { turned(q - asked[j]) } else { q - asked[j] }).abs();
@@ -178,29 +179,18 @@ fn turned(angle: f64) -> f64 {
     angle - std::f64::consts::TAU * (angle / std::f64::consts::TAU).round()
 }
 
-fn in_class<const D: usize, const N: usize>(
-    robot: &Robot,
-    mode: WorkingMode,
-    sign: f64,
-    pose: &[f64],
-) -> Option<Joints> {
-    let placement = Placement::<f64, D>::at(robot.platform, pose);
-    let mut inside = true;
-    constraints::<f64, D, N>(robot, &placement, mode, |constraint, value| {
-        inside &= (if constraint == Constraint::Det { sign * value } else { value }) > 0.0;
-        inside
-    });
-    inside.then(|| joints_in::<D, N>(robot, mode, pose))
+/// g_s(X) in a class, if X lies in it.
+fn in_class<const D: usize, const N: usize>(sheet: &Sheet<'_>, pose: &[f64]) -> Option<Joints> {
+    let (field, x) = (sheet.field::<D, N>(sheet.mode), std::array::from_fn(|k| pose[k]));
+    field.violated(&x, &[]).is_none().then(|| padded(&field.joints(&x, &[None; 3])))
 }
 
-/// The joint vector of a mode at a pose; where a leg does not reach, that of its serial singularity.
-fn joints_in<const D: usize, const N: usize>(robot: &Robot, mode: WorkingMode, pose: &[f64]) -> Joints {
-    let placement = Placement::<f64, D>::at(robot.platform, pose);
-    let legs = closures::<f64, D, N>(robot, &placement);
-    let mut joints = [0.0; 6];
-    for (j, (leg, at)) in robot.legs.iter().zip(&legs).enumerate() {
-        let sh = f64::from(mode.sign(j)) * at.closure.reach.max(0.0).sqrt();
-        joints[j] = drive(&leg.actuator, &at.span, &at.closure, sh).value();
-    }
-    joints
+/// The joint vector in the other posture of every leg.
+fn turned_over<const D: usize, const N: usize>(sheet: &Sheet<'_>, pose: &[f64]) -> Joints {
+    let field = sheet.field::<D, N>(sheet.mode.opposite());
+    padded(&field.joints(&std::array::from_fn(|k| pose[k]), &[None; 3]))
+}
+
+fn padded(joints: &[f64]) -> Joints {
+    std::array::from_fn(|j| joints.get(j).copied().unwrap_or(0.0))
 }

@@ -1,7 +1,7 @@
 //! Sharp edges: where two faces of the boundary meet, the mesh gets vertices on both.
 
-use super::field::Field;
 use super::{BoundaryVertex, Face, Simplex};
+use crate::domain::field::Field;
 use rayon::prelude::*;
 use std::collections::HashMap;
 

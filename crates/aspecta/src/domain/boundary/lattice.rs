@@ -4,8 +4,8 @@
 //! run from a node to the node one step further along some of the axes, a bit set `step`: an edge is (node, step), and neighbours
 //! agree on it, so that the simplices of the boundary fit without gaps.
 
-use super::field::Field;
 use crate::aspect::{Analysis, Aspect, Place};
+use crate::domain::field::Field;
 use rayon::prelude::*;
 use std::collections::VecDeque;
 use std::f64::consts::TAU;

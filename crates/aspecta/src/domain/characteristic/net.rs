@@ -2,7 +2,8 @@
 
 use super::{APART, Characteristic, CharacteristicVertex, GivenUp, SAME_JOINTS, is_driven_constraint};
 use crate::aspect::Analysis;
-use crate::domain::boundary::{Boundary, BoundaryVertex, Face, Field, Simplex, onto};
+use crate::domain::boundary::{Boundary, BoundaryVertex, Face, Simplex, onto};
+use crate::domain::field::Field;
 use arrayvec::ArrayVec;
 use rayon::prelude::*;
 use std::collections::HashMap;

@@ -1,6 +1,6 @@
 //! The functions whose common positivity region is a class of aspects, in plain doubles, with their gradients.
 
-use super::Face;
+use super::boundary::Face;
 use crate::aspect::{Analysis, DetSign, Place};
 use crate::kinematics::WorkingMode;
 use crate::kinematics::leg::drive;
