@@ -2,7 +2,7 @@
 
 mod doubts;
 mod page;
-mod tables;
+pub(crate) mod tables;
 mod volume;
 
 use crate::figure::{self, maps, slices, strips, survey::Survey};
