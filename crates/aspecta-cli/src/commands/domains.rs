@@ -7,7 +7,7 @@ use crate::input;
 use crate::output::{self, Align, Table, brief, note};
 use aspecta::aspect::{Analysis, Count, DetSign, Options, analyze};
 use aspecta::domain::boundary::Boundary;
-use aspecta::domain::characteristic::Characteristic;
+use aspecta::domain::characteristic::{Characteristic, GivenUp};
 use aspecta::domain::{DomainError, DomainOptions, Domains as Found, domains};
 use aspecta::paving::{Budget, Stop};
 use aspecta::robot::Robot;
@@ -110,6 +110,7 @@ impl Domains {
         }
         if let Some(directory) = &self.out {
             for (domains, (boundary, surface)) in found.iter().zip(&surfaces) {
+                incomplete(surface);
                 let cut = Cut { analysis: &analysis, domains, boundary, surface };
                 for path in figures::write(&cut, directory).map_err(Failure::in_directory(directory))? {
                     let written = path.display();
@@ -142,6 +143,18 @@ impl Domains {
             .filter(|c| mode.is_none_or(|mode| c.mode == mode) && det.is_none_or(|det| c.det_a == det));
         let ids = classes.flat_map(|c| c.aspects.iter().map(|a| a.id));
         Ok(ids.filter(|id| self.aspect.is_none_or(|wanted| *id == wanted)).collect())
+    }
+}
+
+/// Says what of a characteristic surface is missing in the files.
+fn incomplete(surface: &Characteristic) {
+    let GivenUp { rim, unclear, unsolved, unlocated } = surface.given_up;
+    if rim + unclear + unsolved + unlocated > 0 {
+        note(&format!(
+            "the characteristic surface of aspect {} has gaps: {rim} pieces of the boundary at its rim and {unclear} others are \
+             not followed, {unsolved} points have no direct solutions, {unlocated} solutions are in no known aspect",
+            surface.aspect
+        ));
     }
 }
 

@@ -2,21 +2,21 @@
 //!
 //! *Numerical*: colours are true to a cell of the grid, lines to the mesh they are cut from.
 
-use super::axes::Axis;
+use super::axes::{Axis, Chart};
 use super::barrier::Kind;
 use super::maps::{NUMBER, draw_lines, draw_styled, fill, sample_line, sign_text, styled_line, swatch};
 use super::palette::{self, PALE, SINGLE, UNDECIDED};
 use super::raster::Raster;
 use super::robot::signs;
-use super::section::{Mesh, Plane};
+use super::section::{Mesh, Plane, kind};
 use super::slices::{Panels, place};
 use super::survey::pose_axis;
 use super::svg::{Anchor, Svg};
-use crate::report::tables::number as number_text;
+use crate::report::tables::{measure_unit, number as number_text};
 use aspecta::aspect::Analysis;
 use aspecta::domain::boundary::Boundary;
 use aspecta::domain::characteristic::Characteristic;
-use aspecta::domain::{Domains, OUTSIDE};
+use aspecta::domain::{BasicRegion, Domains, OUTSIDE};
 
 /// Most slices in a figure, and how many are in a row.
 const SLICES: usize = 12;
@@ -73,7 +73,7 @@ fn colours(domains: &Domains) -> Vec<String> {
         group.iter_mut().filter(|g| **g == a.max(b)).for_each(|g| *g = a.min(b));
     }
     let mut hues: Vec<usize> = Vec::new();
-    let paint = |(k, region): (usize, &aspecta::domain::BasicRegion)| {
+    let paint = |(k, region): (usize, &BasicRegion)| {
         if region.solutions < 2 {
             return SINGLE.to_owned();
         }
@@ -97,7 +97,8 @@ fn sheet(
     let Cut { analysis, domains, .. } = cut;
     let grid = &domains.partition.grid;
     let in_plane = grid.axes() == 2;
-    let count = SLICES.min(grid.count[2]);
+    let layers = if in_plane { vec![0] } else { layers(domains) };
+    let count = SLICES.min(layers.len());
     let axes = [0, 1].map(|k| {
         let low = grid.pose(0)[k] - 0.5 * grid.step[k];
         let range = (low, low + grid.step[k] * grid.count[k] as f64);
@@ -107,14 +108,14 @@ fn sheet(
     let panels = Panels::new(axes, side, columns, HEADING);
     let (width, height) = panels.size(count);
     let width = width.max(720.0);
-    let legend = Legend { colours, is_shown, left: panels.left, width };
+    let legend = Legend { cut, colours, is_shown, left: panels.left, width };
     let mode = signs(&domains.mode.to_string());
     let title = format!("{title} of aspect {}: mode ({mode}), {}", domains.aspect, sign_text(domains.det_a));
     let id = format!("{name}-{}", domains.aspect);
-    let mut svg = Svg::new(&id, width, height + legend.height(domains) + 12.0, &title);
+    let mut svg = Svg::new(&id, width, height + legend.height() + 12.0, &title);
     svg.text([panels.left, 16.0], Anchor::Start, 13.0, "font-weight:600", &title);
     for k in 0..count {
-        let layer = (2 * k + 1) * grid.count[2] / (2 * count);
+        let layer = layers[(2 * k + 1) * layers.len() / (2 * count)];
         let at = grid.pose(layer * grid.count[0] * grid.count[1])[2];
         let plane = (!in_plane).then(|| Plane { at, glued: analysis.window.glued[2] });
         let chart = panels.chart(k);
@@ -124,8 +125,15 @@ fn sheet(
         number(&mut svg, &chart, &raster, domains.regions.len(), is_shown);
         chart.frame(&mut svg, &if in_plane { String::new() } else { place(&analysis.robot, at) });
     }
-    legend.draw(&mut svg, domains, height + 10.0);
+    legend.draw(&mut svg, height + 10.0);
     svg.finish()
+}
+
+/// The layers across the third coordinate that meet the aspect.
+fn layers(domains: &Domains) -> Vec<usize> {
+    let [columns, rows, _] = domains.partition.grid.count;
+    let layers = domains.partition.region.chunks(columns * rows).enumerate();
+    layers.filter(|(_, nodes)| nodes.iter().any(|&r| r != OUTSIDE)).map(|(layer, _)| layer).collect()
 }
 
 /// The labels of the nodes of a layer across the third coordinate.
@@ -140,7 +148,7 @@ fn colour(colours: &[String], label: u32) -> Option<&str> {
 }
 
 /// The boundary over the characteristic surface.
-fn draw_surfaces(svg: &mut Svg, chart: &super::axes::Chart, cut: &Cut<'_>, plane: Option<Plane>) {
+fn draw_surfaces(svg: &mut Svg, chart: &Chart, cut: &Cut<'_>, plane: Option<Plane>) {
     const KINDS: [Kind; 3] = [Kind::Limit, Kind::Serial, Kind::Parallel];
     let (surface, boundary) = (Mesh::from(cut.surface), Mesh::from(cut.boundary));
     let inner: Vec<_> = KINDS.into_iter().flat_map(|kind| surface.lines(kind, plane)).collect();
@@ -154,7 +162,7 @@ fn draw_surfaces(svg: &mut Svg, chart: &super::axes::Chart, cut: &Cut<'_>, plane
 /// Each region's number in the middle of the largest square of it, if there is room.
 fn number(
     svg: &mut Svg,
-    chart: &super::axes::Chart,
+    chart: &Chart,
     raster: &Raster<u32>,
     regions: usize,
     is_shown: &dyn Fn(usize) -> bool,
@@ -174,6 +182,7 @@ fn number(
 
 /// The regions in their colours, and the lines.
 struct Legend<'a> {
+    cut: &'a Cut<'a>,
     colours: &'a [String],
     is_shown: &'a dyn Fn(usize) -> bool,
     left: f64,
@@ -185,20 +194,20 @@ impl Legend<'_> {
         (((self.width - self.left) / ENTRY) as usize).max(1)
     }
 
-    fn shown<'d>(&self, domains: &'d Domains) -> Vec<&'d aspecta::domain::BasicRegion> {
-        domains.regions.iter().filter(|region| (self.is_shown)(region.number)).collect()
+    fn shown(&self) -> Vec<&BasicRegion> {
+        self.cut.domains.regions.iter().filter(|region| (self.is_shown)(region.number)).collect()
     }
 
-    fn height(&self, domains: &Domains) -> f64 {
-        let entries = self.shown(domains).len();
+    fn height(&self) -> f64 {
+        let entries = self.shown().len();
         LINE * (entries.min(LISTED).div_ceil(self.columns()) + usize::from(entries > LISTED) + 2) as f64
     }
 
-    fn draw(&self, svg: &mut Svg, domains: &Domains, top: f64) {
-        let shown = self.shown(domains);
+    fn draw(&self, svg: &mut Svg, top: f64) {
+        let (domains, shown) = (self.cut.domains, self.shown());
         let listed = &shown[..shown.len().min(LISTED)];
         let rows = listed.len().div_ceil(self.columns());
-        let (mut y, unit) = (top, domains.unit.unit.to_string());
+        let (mut y, unit) = (top, measure_unit(self.cut.analysis));
         for (k, region) in listed.iter().enumerate() {
             let at = [self.left + ENTRY * (k / rows) as f64, y + LINE * (k % rows) as f64];
             let measure = number_text(region.measure);
@@ -220,9 +229,24 @@ impl Legend<'_> {
         }
         let text = "n: direct solutions in the aspect; regions of one hue have coincident images";
         svg.text([x, y], Anchor::Start, 11.0, "", text);
-        let x = sample_line(svg, [self.left, y + LINE], Kind::Parallel, "det A = 0");
-        let x = sample_line(svg, [x, y + LINE], Kind::Serial, "det B = 0");
-        let x = sample_line(svg, [x, y + LINE], Kind::Limit, "joint limit or end of the window");
-        styled_line(svg, [x, y + LINE], CHARACTERISTIC, "characteristic surface");
+        self.lines(svg, y + LINE);
+    }
+
+    /// The kinds of lines there are.
+    fn lines(&self, svg: &mut Svg, y: f64) {
+        let names = [
+            (Kind::Parallel, "det A = 0"),
+            (Kind::Serial, "det B = 0"),
+            (Kind::Limit, "joint limit or end of the window"),
+        ];
+        let mut x = self.left;
+        for (of, text) in names {
+            if self.cut.boundary.simplices.iter().any(|s| kind(s.face) == of) {
+                x = sample_line(svg, [x, y], of, text);
+            }
+        }
+        if !self.cut.surface.simplices.is_empty() {
+            styled_line(svg, [x, y], CHARACTERISTIC, "characteristic surface");
+        }
     }
 }
