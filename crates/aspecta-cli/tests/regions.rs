@@ -14,7 +14,7 @@ use aspecta_cli::figure::raster::Raster;
 use aspecta_cli::figure::regions::{Cut, regions, uniqueness};
 use aspecta_cli::figure::section::{Mesh, Plane};
 use aspecta_cli::ply;
-use common::{analysis, five_bar};
+use common::{analysis, five_bar, three_rrr};
 use ply_rs_bw::parser::Parser;
 use ply_rs_bw::ply::{DefaultElement, Property};
 use roxmltree::{Document, Node};
@@ -126,7 +126,7 @@ fn hue(colour: &str) -> f64 {
 /// What another reader of PLY makes of the files.
 #[test]
 fn ply_files_hold_the_meshes() {
-    let case = Case::three_rpr(10, 24);
+    let case = Case::new(analysis(&three_rrr(), 7), 1, 10, 24);
     let boundary = Mesh::from(&case.boundary);
     let faces = ply::faces(&boundary);
     let names = ["x [unit]", "y [unit]", "φ [rad]"].map(str::to_owned);
