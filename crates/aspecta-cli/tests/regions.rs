@@ -96,7 +96,7 @@ fn an_aspect_of_the_five_bar_has_one_colour() {
 /// One colour a region, and twins share a hue.
 #[test]
 fn the_three_rpr_has_the_colours_of_ten_regions() {
-    let case = Case::three_rpr(80, 24);
+    let case = Case::three_rpr(80, 12);
     assert_eq!(case.domains.regions.len(), 10);
     let svg = regions(&case.cut());
     let legend_colours = legend(&svg);
@@ -126,7 +126,7 @@ fn hue(colour: &str) -> f64 {
 /// What another reader of PLY makes of the files.
 #[test]
 fn ply_files_hold_the_meshes() {
-    let case = Case::new(analysis(&three_rrr(), 7), 1, 10, 24);
+    let case = Case::three_rpr(10, 12);
     let boundary = Mesh::from(&case.boundary);
     let faces = ply::faces(&boundary);
     let names = ["x [unit]", "y [unit]", "φ [rad]"].map(str::to_owned);
@@ -161,20 +161,25 @@ fn ply_files_hold_the_meshes() {
     }
 }
 
-/// Where a plane meets the boundary, the functions that bound the aspect are as small as on the mesh.
+/// Where a plane meets the serial part of the boundary, a leg of the 3-RRR is stretched: |AᵢCᵢ| = 20.
 #[test]
 fn sections_lie_on_the_boundary() {
-    let case = Case::three_rpr(10, 48);
-    let mesh = Mesh::from(&case.boundary);
-    for at in [2.5, 5.8] {
+    let boundary = Boundary::new(&analysis(&three_rrr(), 7), 1, 48).unwrap();
+    let anchors = [[-10.0, -10.0], [10.0, -10.0], [0.0, 10.0_f64]];
+    let attachments = [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0_f64]];
+    for at in [-0.6, 0.25, 2.0_f64] {
         let plane = Plane { at, glued: true };
-        let lines = mesh.lines(Kind::Limit, Some(plane));
-        assert!(!lines.is_empty(), "φ = {at}");
+        let lines = Mesh::from(&boundary).lines(Kind::Serial, Some(plane));
+        assert!(lines.iter().flatten().count() > 10, "φ = {at}");
         for &[x, y] in lines.iter().flatten() {
-            // A strut at an end of its range: q = 10 or 32.
-            let q = case.analysis.robot.inverse(&[x, y, at]).unwrap()[0].q.clone();
-            let off = q.iter().flat_map(|q| [(q - 10.0).abs(), (q - 32.0).abs()]).fold(f64::MAX, f64::min);
-            assert!(off < 0.1, "{off} at {x} {y} {at}");
+            let length = |(a, c): (&[f64; 2], &[f64; 2])| {
+                let across = x + c[0] * at.cos() - c[1] * at.sin() - a[0];
+                across.hypot(y + c[0] * at.sin() + c[1] * at.cos() - a[1])
+            };
+            let off = anchors.iter().zip(&attachments).map(|leg| (length(leg) - 20.0).abs());
+            // What is drawn is chords: well within a cell, which is 0.7 wide.
+            let off = off.fold(f64::MAX, f64::min);
+            assert!(off < 0.2, "{off} at {x} {y} {at}");
         }
     }
 }
