@@ -2,7 +2,6 @@
 
 use crate::figure::regions::{Cut, regions, uniqueness};
 use crate::figure::section::Mesh;
-use crate::figure::survey::pose_axis;
 use crate::file::put;
 use crate::ply;
 use std::fs;
@@ -23,7 +22,10 @@ pub fn write(cut: &Cut<'_>, dir: &Path) -> io::Result<Vec<PathBuf>> {
     ];
     let (robot, window) = (&cut.analysis.robot, &cut.analysis.window);
     if robot.dof() == 3 {
-        let coordinates = std::array::from_fn(|k| pose_axis(robot, window, k).label);
+        let coordinates = std::array::from_fn(|k| {
+            let of = robot.platform.coordinates()[k];
+            format!("{} [{}]", of.name, if of.angle { "rad" } else { &robot.length_unit })
+        });
         let boundary = Mesh::from(cut.boundary);
         let faces = ply::faces(&boundary);
         for (what, mesh) in [("boundary.ply", boundary), ("characteristic.ply", Mesh::from(cut.surface))] {

@@ -60,7 +60,8 @@ fn header(coordinates: &[String; 3], faces: &[Face], vertices: usize, triangles:
         "element vertex {vertices}\nproperty double x\nproperty double y\nproperty double z\n\
          element face {triangles}\nproperty list uchar int vertex_indices\nproperty uchar face\nend_header\n"
     );
-    text
+    // As the format wants it: a length unit may be anything.
+    text.replace(|c: char| !c.is_ascii(), "?")
 }
 
 fn name(face: Face) -> String {

@@ -133,6 +133,8 @@ fn ply_files_hold_the_meshes() {
     for mesh in [boundary, Mesh::from(&case.surface)] {
         assert!(mesh.simplices.len() > 500);
         let file = ply::ply(&mesh, &names, &faces, true);
+        let end = file.windows(10).position(|w| w == b"end_header").unwrap();
+        assert!(file[..end].is_ascii());
         let read = Parser::<DefaultElement>::new().read_ply(&mut &file[..]).unwrap();
         assert!(read.header.comments.iter().any(|c| c.contains("det A = 0")), "{:?}", read.header.comments);
         let (vertices, triangles) = (&read.payload["vertex"], &read.payload["face"]);
