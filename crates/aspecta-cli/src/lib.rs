@@ -2,7 +2,9 @@
 //!
 //! Everything is drawn from an [`aspecta::aspect::Analysis`] or an [`aspecta::motion::PathCheck`]; nothing here decides anything about a robot.
 
+pub mod domains;
 pub mod doubt;
 pub mod figure;
 pub mod file;
+pub mod ply;
 pub mod report;

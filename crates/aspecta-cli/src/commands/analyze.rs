@@ -60,12 +60,7 @@ impl Analyze {
         let robot = input::robot(&self.robot)?;
         let fix = fix::parse(&robot, &self.fix)?;
         if let Some(directory) = &self.out {
-            // Before the long work, not after it.
-            fs::create_dir_all(directory).map_err(Failure::in_directory(directory))?;
-            let probe = directory.join(".aspecta-writable");
-            fs::write(&probe, "")
-                .and_then(|()| fs::remove_file(&probe))
-                .map_err(Failure::in_directory(directory))?;
+            file::writable(directory).map_err(Failure::in_directory(directory))?;
         }
         let proof = self.certificate.as_deref().map(place).transpose()?;
         let options = Options { budget: self.budget.unwrap_or_default(), fix, certificate: proof.is_some() };

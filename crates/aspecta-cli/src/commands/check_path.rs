@@ -74,7 +74,7 @@ impl CheckPath {
 /// Writes figure 11 into a directory, which is created if need be.
 fn draw(directory: &Path, robot: &Robot, check: &PathCheck, points: usize) -> io::Result<PathBuf> {
     fs::create_dir_all(directory)?;
-    file::put(directory, "figure11.svg", &figure_11(robot, check, points))
+    file::put(directory, "figure11.svg", figure_11(robot, check, points))
 }
 
 /// Figure 11: det A and the B_jj along the path, each divided by its largest modulus.

@@ -6,12 +6,17 @@ use crate::failure::{Answer, Failure};
 use crate::input;
 use crate::output::{self, Align, Table, brief, note};
 use aspecta::aspect::{Analysis, Count, DetSign, Options, analyze};
+use aspecta::domain::boundary::Boundary;
+use aspecta::domain::characteristic::{Characteristic, GivenUp};
 use aspecta::domain::{DomainError, DomainOptions, Domains as Found, domains};
 use aspecta::paving::{Budget, Stop};
 use aspecta::robot::Robot;
+use aspecta_cli::figure::regions::Cut;
+use aspecta_cli::{domains as figures, file};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 use std::io::Write;
+use std::path::PathBuf;
 
 /// Arguments of `domains`.
 #[derive(Args)]
@@ -33,6 +38,10 @@ pub struct Domains {
     /// Print the whole result as JSON, and nothing else, on stdout (angles in radians)
     #[arg(long)]
     json: bool,
+    /// Write maps of the basic regions and of the largest uniqueness domain into this directory, and for robots with 3
+    /// coordinates the boundary and the characteristic surface as PLY meshes
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
     /// When to stop telling the aspects apart, as for `analyze` [default: depth=11 for 2 coordinates, depth=7 for 3]
     #[arg(long, value_parser = budget::parse, allow_hyphen_values = true)]
     budget: Option<Budget>,
@@ -67,17 +76,23 @@ impl Domains {
             Sign::Plus => DetSign::Positive,
             Sign::Minus => DetSign::Negative,
         });
+        if let Some(directory) = &self.out {
+            file::writable(directory).map_err(Failure::in_directory(directory))?;
+        }
         let in_plane = robot.dof() == 2;
         let coarse = Budget { depth: Some(if in_plane { 11 } else { 7 }), ..Budget::default() };
         let options = Options { budget: self.budget.unwrap_or(coarse), ..Options::default() };
         let usual = DomainOptions::default();
         let cells = self.cells.map_or(if in_plane { 5 * usual.cells } else { usual.cells }, usize::from);
-        let (analysis, found) = watch::watched(self.threads, |control| {
+        let (analysis, found, surfaces) = watch::watched(self.threads, |control| {
             let analysis = analyze(&robot, &options, control)?;
             let wanted = self.wanted(&analysis, mode, det)?;
             let of = |id: &usize| domains(&analysis, *id, DomainOptions { cells, ..usual }, control);
             let found = wanted.iter().map(of).collect::<Result<Vec<Found>, DomainError>>()?;
-            Ok::<_, Failure>((analysis, found))
+            let drawn = wanted.iter().filter(|_| self.out.is_some());
+            let surfaces =
+                drawn.map(|id| surfaces(&analysis, *id, cells)).collect::<Result<Vec<_>, Failure>>()?;
+            Ok::<_, Failure>((analysis, found, surfaces))
         })??;
         if analysis.run.stop == Stop::Cancelled {
             note("cancelled: this is the result so far");
@@ -91,6 +106,20 @@ impl Domains {
             }
             if found.is_empty() {
                 writeln!(out, "no aspect was found there")?;
+            }
+        }
+        if let Some(directory) = &self.out {
+            for (domains, (boundary, surface)) in found.iter().zip(&surfaces) {
+                incomplete(surface);
+                let cut = Cut { analysis: &analysis, domains, boundary, surface };
+                for path in figures::write(&cut, directory).map_err(Failure::in_directory(directory))? {
+                    let written = path.display();
+                    if self.json {
+                        note(&format!("written: {written}"))
+                    } else {
+                        writeln!(out, "written: {written}")?
+                    }
+                }
             }
         }
         let sound = found.iter().all(|d| d.violations.is_empty());
@@ -115,6 +144,26 @@ impl Domains {
         let ids = classes.flat_map(|c| c.aspects.iter().map(|a| a.id));
         Ok(ids.filter(|id| self.aspect.is_none_or(|wanted| *id == wanted)).collect())
     }
+}
+
+/// Says what of a characteristic surface is missing in the files.
+fn incomplete(surface: &Characteristic) {
+    let GivenUp { rim, unclear, unsolved, unlocated } = surface.given_up;
+    if rim + unclear + unsolved + unlocated > 0 {
+        note(&format!(
+            "the characteristic surface of aspect {} has gaps: {rim} pieces of the boundary at its rim and {unclear} others are \
+             not followed, {unsolved} points have no direct solutions, {unlocated} solutions are in no known aspect",
+            surface.aspect
+        ));
+    }
+}
+
+/// The boundary of an aspect and its characteristic surface, about as fine as the regions: within what [`Boundary::new`] takes.
+fn surfaces(analysis: &Analysis, id: usize, cells: usize) -> Result<(Boundary, Characteristic), Failure> {
+    let cells = cells.clamp(4, if analysis.robot.dof() == 2 { 2000 } else { 300 });
+    let boundary = Boundary::new(analysis, id, cells).map_err(|e| Failure::Input(e.to_string()))?;
+    let surface = Characteristic::new(analysis, &boundary).map_err(|e| Failure::Input(e.to_string()))?;
+    Ok((boundary, surface))
 }
 
 impl From<DomainError> for Failure {

@@ -1,6 +1,7 @@
 //! Level curves f = 0 in a rectangle: marching squares on a grid, every vertex polished onto the curve.
 
 use std::collections::HashMap;
+use std::hash::Hash;
 
 /// A rectangle cut into n × n cells.
 #[derive(Clone, Copy, Debug)]
@@ -70,16 +71,16 @@ fn segments(grid: &Grid, values: &[f64], f: &impl Fn([f64; 2]) -> f64) -> Vec<(E
     found
 }
 
-/// Segments linked end to end, open chains first.
-fn chain(segments: &[(Edge, Edge)]) -> Vec<Vec<Edge>> {
-    let mut touching: HashMap<Edge, Vec<usize>> = HashMap::new();
+/// Segments, each given by its ends, linked end to end, open chains first.
+pub fn chain<E: Copy + Eq + Hash>(segments: &[(E, E)]) -> Vec<Vec<E>> {
+    let mut touching: HashMap<E, Vec<usize>> = HashMap::new();
     for (k, s) in segments.iter().enumerate() {
         touching.entry(s.0).or_default().push(k);
         touching.entry(s.1).or_default().push(k);
     }
     let mut used = vec![false; segments.len()];
     let mut chains = Vec::new();
-    let ends = |s: &(Edge, Edge)| [s.0, s.1].into_iter().find(|e| touching[e].len() == 1);
+    let ends = |s: &(E, E)| [s.0, s.1].into_iter().find(|e| touching[e].len() == 1);
     let open = segments.iter().enumerate().filter_map(|(k, s)| ends(s).map(|e| (k, e)));
     let closed = segments.iter().enumerate().map(|(k, s)| (k, s.0));
     for (first, from) in open.chain(closed).collect::<Vec<_>>() {

@@ -12,7 +12,7 @@ use super::svg::{Anchor, Number, Svg};
 use aspecta::aspect::{Aspect, DetSign};
 use aspecta::kinematics::WorkingMode;
 use std::f64::consts::TAU;
-use std::fmt::Write;
+use std::fmt::{Display, Write};
 
 /// Pixels round a plot for its texts; on the left more if the numbers there need it.
 const LEFT: f64 = 48.0;
@@ -161,11 +161,11 @@ pub(super) fn label_colour(label: Label) -> Option<&'static str> {
 }
 
 /// Fills the pixels of every label that has a colour.
-pub(super) fn fill<T: Copy + Ord>(
+pub(super) fn fill<T: Copy + Ord, C: Display>(
     svg: &mut Svg,
     chart: &Chart,
     raster: &Raster<T>,
-    colour: impl Fn(T) -> Option<&'static str>,
+    colour: impl Fn(T) -> Option<C>,
 ) {
     let (columns, rows) = raster.size();
     chart.open_lattice(svg, columns, rows);
@@ -182,24 +182,35 @@ pub(super) fn fill<T: Copy + Ord>(
 pub(super) fn draw_lines(svg: &mut Svg, chart: &Chart, lines: &Lines, turns: [bool; 2]) {
     chart.clip(svg);
     for kind in [Kind::Limit, Kind::Serial, Kind::Parallel] {
-        let mut d = String::new();
-        for (_, line) in lines.iter().filter(|l| l.0 == kind) {
-            let copies = [0, 1].map(|k| {
-                copies(line.iter().map(|p| p[k]), if turns[k] { chart_range(chart, k) } else { None })
-            });
-            for (i, j) in copies[0].clone().flat_map(|i| copies[1].clone().map(move |j| (i, j))) {
-                let shifted: Vec<[f64; 2]> =
-                    line.iter().map(|p| chart.at([p[0] + TAU * i as f64, p[1] + TAU * j as f64])).collect();
-                for (k, p) in simplify(&shifted, 0.05).iter().enumerate() {
-                    let _ = write!(d, "{}{} {}", if k == 0 { 'M' } else { 'L' }, Number(p[0]), Number(p[1]));
-                }
-            }
-        }
-        if !d.is_empty() {
-            svg.path(&d, line_style(kind));
-        }
+        let of_kind = lines.iter().filter(|l| l.0 == kind).map(|l| &l.1);
+        draw_styled(svg, chart, of_kind, turns, line_style(kind));
     }
     svg.close();
+}
+
+/// Curves in one style; else as [`draw_lines`], but not clipped.
+pub(super) fn draw_styled<'a>(
+    svg: &mut Svg,
+    chart: &Chart,
+    lines: impl Iterator<Item = &'a Vec<[f64; 2]>>,
+    turns: [bool; 2],
+    style: &str,
+) {
+    let mut d = String::new();
+    for line in lines {
+        let copies = [0, 1]
+            .map(|k| copies(line.iter().map(|p| p[k]), if turns[k] { chart_range(chart, k) } else { None }));
+        for (i, j) in copies[0].clone().flat_map(|i| copies[1].clone().map(move |j| (i, j))) {
+            let shifted: Vec<[f64; 2]> =
+                line.iter().map(|p| chart.at([p[0] + TAU * i as f64, p[1] + TAU * j as f64])).collect();
+            for (k, p) in simplify(&shifted, 0.05).iter().enumerate() {
+                let _ = write!(d, "{}{} {}", if k == 0 { 'M' } else { 'L' }, Number(p[0]), Number(p[1]));
+            }
+        }
+    }
+    if !d.is_empty() {
+        svg.path(&d, style);
+    }
 }
 
 fn chart_range(chart: &Chart, axis: usize) -> Option<(f64, f64)> {

@@ -9,6 +9,12 @@ const ASPECTS: [&str; 12] = [
 /// Undecided cells.
 pub const UNDECIDED: &str = "#9b9b9b";
 
+/// Basic regions without a twin: one direct solution in the aspect.
+pub const SINGLE: &str = "#e3ddc9";
+
+/// What a figure is not about.
+pub const PALE: &str = "#f3f3f3";
+
 /// Where a path fails.
 pub const OBSTACLE: &str = "#c1121f";
 
@@ -25,4 +31,18 @@ pub fn count(n: usize) -> &'static str {
     const STEPS: [&str; 8] =
         ["#fee391", "#fec44f", "#fb9a29", "#ec7014", "#cc4c02", "#993404", "#662506", "#331203"];
     STEPS[n.saturating_sub(1).min(STEPS.len() - 1)]
+}
+
+/// Shade `k` of `of` (from 0, dark to light) of the hue with this number (from 1).
+pub fn shade(hue: usize, k: usize, of: usize) -> String {
+    let at = if of < 2 { 0.0 } else { k as f64 / (of - 1) as f64 };
+    // From a quarter black to two thirds white.
+    let (towards, share) =
+        if of < 2 || at > 0.25 { (255.0, (at - 0.25).max(0.0) / 0.75 * 0.67) } else { (0.0, 0.25 - at) };
+    let base = aspect(hue);
+    let channel = |c: usize| {
+        let value = f64::from(u8::from_str_radix(&base[c..c + 2], 16).unwrap_or_default());
+        (value + share * (towards - value)).round() as u8
+    };
+    format!("#{:02x}{:02x}{:02x}", channel(1), channel(3), channel(5))
 }

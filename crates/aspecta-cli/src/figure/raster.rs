@@ -1,5 +1,6 @@
 //! Labels on a regular lattice, and their outlines as compact SVG paths.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// What is known of a place with respect to one class of aspects.
@@ -60,6 +61,33 @@ impl<T: Copy + PartialEq> Raster<T> {
         all.sort_unstable();
         all.dedup();
         all
+    }
+
+    /// The largest square of pixels with each label: the labels in order, each with the square's lower left (column, row) and its side.
+    pub fn squares(&self) -> Vec<(T, (usize, usize), usize)>
+    where
+        T: Ord,
+    {
+        let mut largest: BTreeMap<T, ((usize, usize), usize)> = BTreeMap::new();
+        // Sides of the squares that end at the pixels of the row below, and of this row so far.
+        let (mut below, mut sides) = (vec![0; self.columns], vec![0; self.columns]);
+        for row in 0..self.rows {
+            std::mem::swap(&mut below, &mut sides);
+            for column in 0..self.columns {
+                let label = self.at(column, row);
+                let alike = column > 0
+                    && row > 0
+                    && [(1, 0), (0, 1), (1, 1)].iter().all(|(c, r)| self.at(column - c, row - r) == label);
+                let around = || sides[column - 1].min(below[column]).min(below[column - 1]);
+                let side = 1 + if alike { around() } else { 0 };
+                sides[column] = side;
+                let best = largest.entry(label).or_insert(((column, row), 0));
+                if side > best.1 {
+                    *best = ((column + 1 - side, row + 1 - side), side);
+                }
+            }
+        }
+        largest.into_iter().map(|(label, (corner, side))| (label, corner, side)).collect()
     }
 
     /// The outline of all pixels with `label` as an SVG path in lattice units, counter-clockwise outside, so that it

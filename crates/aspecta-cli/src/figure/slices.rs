@@ -39,23 +39,16 @@ pub struct ModeCells<'a> {
 /// `sides` are the numbers of finest cells along the axes.
 pub fn slices(robot: &Robot, window: &Window, sides: [usize; 3], mode: &ModeCells<'_>) -> String {
     let axes = [0, 1].map(|k| pose_axis(robot, window, k));
-    let third = robot.platform.coordinates()[2];
-    let (name, range) = (coordinate_name(third.name), window.ranges[2]);
-    let unit = if third.angle { "rad" } else { &robot.length_unit };
-    let [x, y] = axes.clone();
-    let shape = Chart::fit(x, y, 0.0, 0.0, SIDE, SIDE);
-    let panel = (shape.margin().max(48.0), 26.0, SIDE, 40.0); // left, above, side, below
-    let rows = SLICES.div_ceil(3);
-    let step = (panel.0 + shape.width + 8.0, panel.1 + shape.height + panel.3);
-    let size = ((3.0 * step.0 + 10.0).max(700.0), rows as f64 * step.1 + 52.0);
+    let range = window.ranges[2];
+    let panels = Panels::new(axes.clone(), SIDE, 3, 0.0);
+    let (width, height) = panels.size(SLICES);
+    let size = (width.max(700.0), height + 52.0);
     let text = signs(&mode.mode.to_string());
     let mut svg =
         Svg::new(&format!("slices-mf{}", mode.number), size.0, size.1, &format!("Slices of mode ({text})"));
     for k in 0..SLICES {
         let at = range.0 + (range.1 - range.0) * (k as f64 + 0.5) / SLICES as f64;
-        let [x, y] = axes.clone();
-        let (left, top) = (panel.0 + (k % 3) as f64 * step.0, panel.1 + (k / 3) as f64 * step.1);
-        let chart = Chart::fit(x, y, left, top, panel.2, panel.2);
+        let chart = panels.chart(k);
         let raster = slice(mode, &axes, [sides[0].min(PIXELS), sides[1].min(PIXELS)], at);
         fill(&mut svg, &chart, &raster, label_colour);
         let plane = Plane { through: vec![at; 3], axes: [0, 1] };
@@ -63,11 +56,54 @@ pub fn slices(robot: &Robot, window: &Window, sides: [usize; 3], mode: &ModeCell
         let grid = Grid { x: axes[0].range, y: axes[1].range, n: GRID };
         let lines = sheet.curves(&grid).into_iter().map(|c| (c.kind, c.points)).collect();
         draw_lines(&mut svg, &chart, &lines, [false; 2]);
-        chart.frame(&mut svg, &format!("({text}), {name} = {} {unit}", Number(at)).replace("-", "−"));
+        chart.frame(&mut svg, &format!("({text}), {}", place(robot, at)));
     }
-    aspects(&mut svg, mode, [panel.0, size.1 - 30.0], size.0);
-    legend(&mut svg, [panel.0, size.1 - 12.0]);
+    aspects(&mut svg, mode, [panels.left, size.1 - 30.0], size.0);
+    legend(&mut svg, [panels.left, size.1 - 12.0]);
     svg.finish()
+}
+
+/// Where across the third coordinate a slice is: `φ = 0.5 rad`.
+pub(super) fn place(robot: &Robot, at: f64) -> String {
+    let third = robot.platform.coordinates()[2];
+    let unit = if third.angle { "rad" } else { &robot.length_unit };
+    format!("{} = {} {unit}", coordinate_name(third.name), Number(at)).replace('-', "−")
+}
+
+/// Plots of the same shape in rows.
+pub(super) struct Panels {
+    shape: Chart,
+    columns: usize,
+    /// Pixels left of a plot.
+    pub left: f64,
+    top: f64,
+}
+
+impl Panels {
+    /// Plots of at most `side` pixels, the first row `top` pixels down.
+    pub fn new([x, y]: [Axis; 2], side: f64, columns: usize, top: f64) -> Self {
+        let shape = Chart::fit(x, y, 0.0, 0.0, side, side);
+        Self { left: shape.margin().max(48.0), shape, columns, top }
+    }
+
+    /// From one plot to the next, across and down.
+    fn step(&self) -> (f64, f64) {
+        (self.left + self.shape.width + 8.0, 26.0 + self.shape.height + 40.0)
+    }
+
+    /// Width and height of so many.
+    pub fn size(&self, count: usize) -> (f64, f64) {
+        let step = self.step();
+        let rows = count.div_ceil(self.columns) as f64;
+        (self.columns as f64 * step.0 + 10.0, self.top + rows * step.1)
+    }
+
+    /// The plot with this number, from 0.
+    pub fn chart(&self, k: usize) -> Chart {
+        let (step, column, row) = (self.step(), (k % self.columns) as f64, (k / self.columns) as f64);
+        let (left, top) = (self.left + column * step.0, self.top + 26.0 + row * step.1);
+        Chart { left, top, ..self.shape.clone() }
+    }
 }
 
 /// What the mode's classes say of the plane `at`: an aspect where either has one.

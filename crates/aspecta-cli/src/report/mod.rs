@@ -2,7 +2,7 @@
 
 mod doubts;
 mod page;
-mod tables;
+pub(crate) mod tables;
 mod volume;
 
 use crate::figure::{self, maps, slices, strips, survey::Survey};
@@ -49,7 +49,7 @@ pub fn write(analysis: &Analysis, dir: &Path) -> io::Result<Vec<PathBuf>> {
     let volume = if analysis.window.axes().len() == 3 { Some(volume::json(analysis, &cells)?) } else { None };
     let folder = dir.join("figures");
     fs::create_dir_all(&folder)?;
-    let mut written = vec![put(dir, "report.html", &page::page(analysis, &figures, volume.as_deref()))?];
+    let mut written = vec![put(dir, "report.html", page::page(analysis, &figures, volume.as_deref()))?];
     for (name, svg) in figures.all() {
         written.push(put(&folder, &format!("{name}.svg"), svg)?);
     }

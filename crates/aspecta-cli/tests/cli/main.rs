@@ -5,6 +5,7 @@ mod bad_input;
 mod check_path;
 mod csv;
 mod cusps;
+mod domains;
 mod json;
 mod people;
 mod process;
