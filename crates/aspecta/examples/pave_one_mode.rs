@@ -1,5 +1,5 @@
 //! Paves one working mode of the paper's five-bar and prints what `benches/peers` compares, as JSON:
-//! `cargo run --release -p aspecta --example pave_one_mode -- ++ 11 20` (mode, depth, repetitions).
+//! `cargo run --release -p aspecta --example pave_one_mode -- ++ 11 20` (mode, depth, repetitions; these if none are given).
 
 use aspecta::kinematics::{KinematicsError, WorkingMode};
 use aspecta::paving::{Budget, Control, Mark, Paving};
@@ -16,8 +16,9 @@ const SAMPLES: usize = 40;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let [mode, depth, repetitions] = arguments.as_slice() else {
-        return Err("usage: pave_one_mode MODE DEPTH REPETITIONS".into());
+    let usual = ["++", "11", "20"].map(String::from);
+    let [mode, depth, repetitions] = (if arguments.is_empty() { &usual[..] } else { &arguments }) else {
+        return Err("usage: pave_one_mode [MODE DEPTH REPETITIONS]".into());
     };
     let mode: WorkingMode = mode.parse()?;
     let robot = Robot::resolve("five-bar")?;
