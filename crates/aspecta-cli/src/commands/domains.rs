@@ -4,7 +4,7 @@ use super::queries::Labels;
 use super::{budget, watch};
 use crate::failure::{Answer, Failure};
 use crate::input;
-use crate::output::{self, Align, Table, brief, note};
+use crate::output::{self, Align, FORMAT_VERSION, Table, brief, note};
 use aspecta::aspect::{Analysis, Count, DetSign, Options, analyze};
 use aspecta::domain::boundary::Boundary;
 use aspecta::domain::characteristic::{Characteristic, GivenUp};
@@ -99,7 +99,10 @@ impl Domains {
         }
         if self.json {
             let (aspects, domains) = (analysis.aspects, found.as_slice());
-            output::json(out, &Output { format_version: 1, robot: &analysis.robot, aspects, domains })?;
+            output::json(
+                out,
+                &Output { format_version: FORMAT_VERSION, robot: &analysis.robot, aspects, domains },
+            )?;
         } else {
             for domains in &found {
                 print(out, &robot, domains)?;

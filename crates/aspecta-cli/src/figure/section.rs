@@ -5,7 +5,8 @@ use super::level::chain;
 use aspecta::domain::boundary::{Boundary, Face, Simplex};
 use aspecta::domain::characteristic::Characteristic;
 use aspecta::kinematics::modal::Constraint;
-use std::f64::consts::{PI, TAU};
+use aspecta::num::without_turns;
+use std::f64::consts::PI;
 
 /// Segments or triangles over poses.
 #[derive(Clone, Debug)]
@@ -86,6 +87,6 @@ impl Plane {
     /// How far above it a pose is; within half a turn, if turns do not count.
     fn height(self, pose: &[f64]) -> f64 {
         let height = pose[2] - self.at;
-        if self.glued { height - TAU * (height / TAU).round() } else { height }
+        if self.glued { without_turns(height) } else { height }
     }
 }

@@ -328,8 +328,5 @@ fn image(robot: &Robot, sheet: &Paving, y: &[Interval]) -> Vec<Interval> {
 }
 
 fn image_in<const D: usize, const N: usize>(robot: &Robot, sheet: &Paving, y: &[Interval]) -> Vec<Interval> {
-    let y: [Interval; N] = std::array::from_fn(|k| y[k]);
-    let (placement, _) = sheet.chart.at::<Interval, D, N>(robot, &y, |k| y[k].sin_cos());
-    // The chart's coordinates stand for the translations.
-    (0..N).map(|k| if k < D { placement.origin()[k] } else { y[k] }).collect()
+    sheet.chart.pose::<D, N>(robot, &std::array::from_fn(|k| y[k])).to_vec()
 }

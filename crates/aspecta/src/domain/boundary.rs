@@ -12,7 +12,7 @@ mod lattice;
 pub(crate) use corner::onto;
 
 use super::field::Field;
-use crate::aspect::{Analysis, DetSign, Place};
+use crate::aspect::{Analysis, Aspect, DetSign, Place};
 use crate::kinematics::modal::Constraint;
 use crate::kinematics::{WorkingMode, for_platform};
 use lattice::{Edge, Lattice, Tag};
@@ -150,9 +150,10 @@ impl Boundary {
         if cells < 4 || cells > if dimension == 2 { 2000 } else { 300 } {
             return Err(BoundaryError::Cells(cells));
         }
-        let class = analysis.classes.iter().position(|class| class.aspects.iter().any(|a| a.id == aspect));
         let count = || analysis.classes.iter().map(|class| class.aspects.len()).sum();
-        let class = class.ok_or_else(|| BoundaryError::NoSuchAspect { id: aspect, count: count() })?;
+        let (class, aspect) = analysis
+            .aspect(aspect)
+            .ok_or_else(|| BoundaryError::NoSuchAspect { id: aspect, count: count() })?;
         Ok(for_platform!(analysis.robot.platform, extract(analysis, class, aspect, cells)))
     }
 
@@ -189,13 +190,13 @@ impl Boundary {
 fn extract<const D: usize, const N: usize>(
     analysis: &Analysis,
     class: usize,
-    id: usize,
+    aspect: &Aspect,
     cells: usize,
 ) -> Boundary {
     let of = &analysis.classes[class];
     let field =
         Field::<D, N> { robot: &analysis.robot, mode: of.mode, sign: of.det_a, window: &analysis.window };
-    let aspect = &of.aspects[of.aspects.iter().position(|a| a.id == id).unwrap_or_default()];
+    let id = aspect.id;
     let mut lattice = Lattice::new(analysis, aspect, cells);
     let unassigned = lattice.tag(analysis, class, id, &field);
     let cuts = lattice.cuts();

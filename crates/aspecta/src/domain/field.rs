@@ -7,10 +7,9 @@ use crate::kinematics::leg::drive;
 use crate::kinematics::limits::margin;
 use crate::kinematics::modal::{Constraint, LegClosure, ModalRows, closures};
 use crate::kinematics::placement::{Placement, leg_gradient, wrench};
-use crate::num::{Interval, Jet, Scalar, each};
+use crate::num::{Interval, Jet, Scalar, each, without_turns};
 use crate::robot::{Robot, Window};
 use nalgebra::{SMatrix, SVector};
-use std::f64::consts::TAU;
 
 /// Most iterations of Newton's method.
 const STEPS: usize = 30;
@@ -39,7 +38,7 @@ impl<const D: usize, const N: usize> Field<'_, D, N> {
     pub fn difference(&self, a: &[f64; N], b: &[f64; N]) -> [f64; N] {
         std::array::from_fn(|k| {
             let gap = b[k] - a[k];
-            let gap = if self.window.glued[k] { gap - TAU * (gap / TAU).round() } else { gap };
+            let gap = if self.window.glued[k] { without_turns(gap) } else { gap };
             if self.width(k) > 0.0 { gap / self.width(k) } else { 0.0 }
         })
     }
@@ -262,7 +261,7 @@ impl<const D: usize, const N: usize> Field<'_, D, N> {
         let gap = |j: usize| {
             let gap = p[j] - q[j];
             match self.robot.legs[j].actuator.is_angle() {
-                true => (gap - TAU * (gap / TAU).round()).abs(),
+                true => without_turns(gap).abs(),
                 false => gap.abs(),
             }
         };

@@ -164,7 +164,7 @@ impl Partition {
         let mut size = BTreeMap::<u32, (bool, usize)>::new();
         for &node in &inside {
             let entry = size.entry(self.region[node]).or_default();
-            entry.0 |= self.is_inner(node);
+            entry.0 = entry.0 || self.is_inner(node);
             entry.1 += 1;
         }
         let mut roots: Vec<_> =
@@ -230,15 +230,9 @@ impl Partition {
 
     /// Whether the nodes round a node, diagonal ones too, are in its region.
     pub(super) fn is_inner(&self, node: usize) -> bool {
-        let pose = self.grid.pose(node);
-        let axes = self.grid.axes();
-        (0..1usize << axes).all(|side| {
-            let mut beside = pose;
-            for (k, x) in beside.iter_mut().enumerate().take(axes) {
-                *x += self.grid.step[k] * if side >> k & 1 == 1 { 0.5 } else { -0.5 };
-            }
-            self.region_round(&beside[..axes]) == Some(self.region[node])
-        })
+        let mut alike = 0;
+        self.grid.within(node, 1, |other| alike += usize::from(self.region[other] == self.region[node]));
+        alike + 1 == 3usize.pow(self.grid.axes() as u32)
     }
 
     /// The region that all nodes round a pose lie in, if it is one and the same (or none of them in the aspect).

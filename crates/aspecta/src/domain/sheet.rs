@@ -4,6 +4,7 @@ use super::field::Field;
 use super::grid::Grid;
 use crate::aspect::{Analysis, DetSign};
 use crate::kinematics::{WorkingMode, for_platform};
+use crate::num::without_turns;
 use arrayvec::ArrayVec;
 
 /// Which pose of a second list each pose of a first one has become.
@@ -56,23 +57,14 @@ impl<'a> Sheet<'a> {
     pub fn others(&self, pose: &[f64], joints: &Joints, mut visit: impl FnMut(&[f64])) -> bool {
         let robot = &self.analysis.robot;
         let Ok(poses) = robot.direct_poses(&joints[..robot.dof()]) else { return false };
-        let Some(own) = (0..poses.len()).min_by(|&a, &b| {
-            let gap = |k: usize| poses.iter().nth(k).map_or(f64::INFINITY, |other| self.gap(pose, other));
-            gap(a).total_cmp(&gap(b))
-        }) else {
-            return false;
-        };
+        let gaps = poses.iter().map(|other| self.gap(pose, other)).enumerate();
+        let Some((own, _)) = gaps.min_by(|a, b| a.1.total_cmp(&b.1)) else { return false };
         for (_, other) in poses.iter().enumerate().filter(|(k, _)| *k != own) {
             if self.joints(other).is_some_and(|q| self.is_posture(other, &q, joints)) {
                 visit(other);
             }
         }
         true
-    }
-
-    /// n(X): how many poses of the aspect, X among them, have its joint vector; `None` outside the aspect.
-    pub fn count(&self, pose: &[f64]) -> Option<u8> {
-        Some(1 + self.all_others(pose)?.len() as u8)
     }
 
     /// The other poses of the aspect with the joint vector of a pose; `None` outside the aspect.
@@ -135,7 +127,8 @@ impl<'a> Sheet<'a> {
     fn nearest(&self, grid: &Grid, from: &[[f64; 3]], to: &[[f64; 3]]) -> Option<Match> {
         let gap = |x: &[f64; 3], y: &[f64; 3]| {
             let part = |k: usize| {
-                let gap = if self.analysis.window.angles[k] { turned(x[k] - y[k]) } else { x[k] - y[k] };
+                let gap =
+                    if self.analysis.window.angles[k] { without_turns(x[k] - y[k]) } else { x[k] - y[k] };
                 gap.abs() / grid.step[k]
             };
             (0..grid.axes()).map(part).fold(0.0, f64::max)
@@ -155,7 +148,7 @@ impl<'a> Sheet<'a> {
     fn gap(&self, a: &[f64], b: &[f64]) -> f64 {
         let window = &self.analysis.window;
         let part = |k: usize| {
-            let gap = if window.angles[k] { turned(a[k] - b[k]) } else { a[k] - b[k] };
+            let gap = if window.angles[k] { without_turns(a[k] - b[k]) } else { a[k] - b[k] };
             gap.abs() / (window.ranges[k].1 - window.ranges[k].0)
         };
         (0..a.len()).map(part).fold(0.0, f64::max)
@@ -167,16 +160,12 @@ impl<'a> Sheet<'a> {
         let robot = &self.analysis.robot;
         let turned_over = for_platform!(robot.platform, turned_over(self, pose));
         robot.legs.iter().enumerate().filter(|(_, leg)| leg.actuator.postures() == 2).all(|(j, leg)| {
-            let gap =
-                |q: f64| (if leg.actuator.is_angle() { turned(q - asked[j]) } else { q - asked[j] }).abs();
+            let gap = |q: f64| {
+                (if leg.actuator.is_angle() { without_turns(q - asked[j]) } else { q - asked[j] }).abs()
+            };
             gap(found[j]) <= gap(turned_over[j])
         })
     }
-}
-
-/// An angle's remainder in [−π, π].
-fn turned(angle: f64) -> f64 {
-    angle - std::f64::consts::TAU * (angle / std::f64::consts::TAU).round()
 }
 
 /// g_s(X) in a class, if X lies in it.

@@ -80,6 +80,16 @@ impl Chart {
         }
     }
 
+    /// Poses that hold all configurations whose coordinates are in `y`.
+    pub fn pose<const D: usize, const N: usize>(&self, robot: &Robot, y: &[Interval; N]) -> [Interval; N] {
+        if *self == Self::Pose {
+            return *y;
+        }
+        let (placement, _) = self.at::<Interval, D, N>(robot, y, |k| y[k].sin_cos());
+        // The chart's coordinates stand for the translations.
+        std::array::from_fn(|k| if k < D { placement.origin()[k] } else { y[k] })
+    }
+
     /// The window of the chart, given that of the poses.
     pub fn window(&self, poses: &Window) -> Window {
         let Self::Fold(fold) = self else { return poses.clone() };

@@ -121,3 +121,8 @@ pub fn dot_constant<T: Scalar, const D: usize>(c: &[Interval], a: &[T; D]) -> T 
     }
     sum.unwrap_or_else(T::zero)
 }
+
+/// An angle without its full turns: in [−π, π].
+pub fn without_turns(angle: f64) -> f64 {
+    angle - std::f64::consts::TAU * (angle / std::f64::consts::TAU).round()
+}

@@ -3,8 +3,7 @@
 use super::search::{Findings, Search};
 use super::{Cusps, Doubt, Undecided};
 use crate::kinematics::chart::Chart;
-use crate::kinematics::placement::Placement;
-use crate::num::{Interval, Scalar};
+use crate::num::Interval;
 use crate::robot::Window;
 
 /// A cusp that has been found.
@@ -25,7 +24,7 @@ pub(super) fn collect<const D: usize, const N: usize>(
     all: &mut Cusps,
 ) {
     let chart = &search.system.chart;
-    let pose = |region: &[Interval; N]| turned_in(window, pose::<D, N>(search, region));
+    let pose = |region: &[Interval; N]| turned_in(window, chart.pose::<D, N>(search.system.robot, region));
     let mut undecided = |pose: [Interval; N], why| {
         let undecided = Undecided { mode: search.system.mode, enclosure: pose.to_vec(), why };
         merge(&mut all.undecided, undecided);
@@ -49,17 +48,6 @@ pub(super) fn collect<const D: usize, const N: usize>(
     for (region, why) in &findings.doubts {
         undecided(pose(region), *why);
     }
-}
-
-/// The poses of a box of the chart's coordinates.
-fn pose<const D: usize, const N: usize>(search: &Search<'_, D, N>, region: &[Interval; N]) -> [Interval; N] {
-    let chart = &search.system.chart;
-    if *chart == Chart::Pose {
-        return *region;
-    }
-    let (placement, _): (Placement<Interval, D>, _) =
-        chart.at::<Interval, D, N>(search.system.robot, region, |k| region[k].sin_cos());
-    std::array::from_fn(|k| if k < D { placement.origin()[k] } else { region[k] })
 }
 
 fn turn() -> Interval {

@@ -4,12 +4,12 @@ use super::equations::System;
 use super::{CuspError, Options, check, cusps};
 use crate::kinematics::WorkingMode;
 use crate::kinematics::chart::Chart;
-use crate::num::Jet;
+use crate::num::{Jet, without_turns};
 use crate::paving::{Control, Progress};
 use crate::robot::{Actuator, Platform, Robot, Window};
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 /// Slices in which curves are looked for.
 const SLICES: usize = 12;
@@ -275,8 +275,7 @@ impl<'a, const D: usize> Tracker<'a, D> {
     /// a − b, angles to the nearest turn.
     fn gap(&self, a: &Vector3<f64>, b: &Vector3<f64>) -> Vector3<f64> {
         let gap = a - b;
-        let nearest =
-            |k: usize| if self.window.glued[k] { gap[k] - TAU * (gap[k] / TAU).round() } else { gap[k] };
+        let nearest = |k: usize| if self.window.glued[k] { without_turns(gap[k]) } else { gap[k] };
         Vector3::from_fn(|k, _| nearest(k))
     }
 

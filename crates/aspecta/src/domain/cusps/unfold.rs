@@ -1,9 +1,8 @@
 //! What a small step in the joint space makes of a cusp.
 
 use super::equations::System;
-use crate::num::Jet;
+use crate::num::{Jet, without_turns};
 use serde::Serialize;
-use std::f64::consts::TAU;
 
 /// Two joint vectors beside that of a cusp, and the direct solutions they have near it: three on one side, one on the other.
 #[derive(Clone, Debug, Serialize)]
@@ -81,7 +80,7 @@ fn distance<const D: usize, const N: usize>(
     let coordinates = system.robot.platform.coordinates();
     let gap = |k: usize| {
         let gap = a[k] - b[k];
-        if coordinates[k].angle { gap - TAU * (gap / TAU).round() } else { gap / unit[k] }
+        if coordinates[k].angle { without_turns(gap) } else { gap / unit[k] }
     };
     (0..N).map(|k| gap(k).powi(2)).sum::<f64>().sqrt()
 }
