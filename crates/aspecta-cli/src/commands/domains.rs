@@ -176,8 +176,7 @@ impl From<DomainError> for Failure {
 }
 
 fn print(out: &mut dyn Write, robot: &Robot, found: &Found) -> Result<(), Failure> {
-    let pose = Labels::pose(robot, false);
-    let Found { aspect, mode, det_a, unit, agreement, .. } = found;
+    let Found { aspect, mode, det_a, unit, .. } = found;
     writeln!(
         out,
         "aspect {aspect} (mode {mode}, det A {det_a}): {} {} {}, numerical, in cells of {}",
@@ -186,7 +185,22 @@ fn print(out: &mut dyn Write, robot: &Robot, found: &Found) -> Result<(), Failur
         unit.unit,
         found.cell.iter().map(|w| brief(*w)).collect::<Vec<_>>().join(" x ")
     )?;
-    let right = |name: &str| (name.to_owned(), Align::Right);
+    regions(out, robot, found)?;
+    uniqueness(out, found)?;
+    checks(out, robot, found)?;
+    Ok(writeln!(out)?)
+}
+
+fn right(name: &str) -> (String, Align) {
+    (name.to_owned(), Align::Right)
+}
+
+fn percent(share: f64) -> String {
+    format!("{:.1} %", 100.0 * share)
+}
+
+fn regions(out: &mut dyn Write, robot: &Robot, found: &Found) -> Result<(), Failure> {
+    let (pose, unit) = (Labels::pose(robot, false), &found.unit);
     writeln!(out, "\nBasic regions (Def. 10)")?;
     let vector = pose.headings().map(|name| (name, Align::Right));
     let names = [right("region"), right(unit.name), right("solutions")];
@@ -212,15 +226,18 @@ fn print(out: &mut dyn Write, robot: &Robot, found: &Found) -> Result<(), Failur
             unit.name
         )?;
     }
+    Ok(())
+}
+
+fn uniqueness(out: &mut dyn Write, found: &Found) -> Result<(), Failure> {
     writeln!(out, "\nUniqueness domains (Theorem 3)")?;
     let names = [
-        right(unit.name),
+        right(found.unit.name),
         right("of the aspect"),
         right("of the workspace"),
         ("regions".into(), Align::Left),
     ];
     let mut table = Table::new(names);
-    let percent = |share: f64| format!("{:.1} %", 100.0 * share);
     for domain in found.uniqueness.iter().take(LISTED) {
         let of_workspace = domain.of_workspace.map_or(String::new(), percent);
         let listed = domain.regions.iter().take(12).map(usize::to_string).collect::<Vec<_>>().join(" ");
@@ -237,6 +254,12 @@ fn print(out: &mut dyn Write, robot: &Robot, found: &Found) -> Result<(), Failur
     if !found.complete {
         writeln!(out, "  there may be more: the search for sets of regions was cut short")?;
     }
+    Ok(())
+}
+
+/// What was checked, and where it does not hold.
+fn checks(out: &mut dyn Write, robot: &Robot, found: &Found) -> Result<(), Failure> {
+    let (pose, agreement) = (Labels::pose(robot, false), &found.agreement);
     writeln!(
         out,
         "\nchecked: {} of {} random poses away from the surfaces have as many direct solutions as their region",
@@ -264,7 +287,7 @@ fn print(out: &mut dyn Write, robot: &Robot, found: &Found) -> Result<(), Failur
     if found.failed > 0 {
         writeln!(out, "at {} nodes the direct model failed: counted as one solution", found.failed)?;
     }
-    Ok(writeln!(out)?)
+    Ok(())
 }
 
 /// Images that coincide to this share are said to coincide: the rest is as much as a grid errs near surfaces.
