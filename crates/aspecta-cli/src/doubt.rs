@@ -1,6 +1,7 @@
 //! Where the bounds on the number of aspects are apart, in the words and units of people.
 
-use aspecta::aspect::Doubt;
+use aspecta::aspect::{Analysis, Doubt};
+use aspecta::kinematics::parallel_rods::ParallelRods;
 use aspecta::robot::Robot;
 
 /// A coordinate of the place of a doubt.
@@ -31,6 +32,28 @@ pub fn place(robot: &Robot, doubt: &Doubt) -> Vec<Coordinate> {
     let names = own.clone().chain(pose.skip(own.count()));
     let all = names.zip(&doubt.place).map(|((name, unit), &range)| Coordinate { name, unit, range });
     all.filter(|c| c.range.0 < c.range.1).collect()
+}
+
+/// Why no refinement ends the doubts round some surfaces: a sentence each; none if the bounds meet.
+pub fn reasons(analysis: &Analysis) -> Vec<String> {
+    let unit = &analysis.robot.length_unit;
+    let reason = |rods: &ParallelRods| {
+        let legs = rods.legs.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
+        let decimals = (4 - rods.radius.log10().floor() as i32).max(0) as usize;
+        // Adding zero turns a rounded −0 into 0.
+        let scale = 10f64.powi(decimals as i32);
+        let shown = |x: f64| format!("{:.decimals$}", (x * scale).round() / scale + 0.0);
+        format!(
+            "det A vanishes to order {} on a surface, where the rods of legs {legs} are parallel: poses at {} {unit} from ({}), q{} = {:.4}. \
+             Its sign need not change there, so boxes on it are never decided; limits that keep the joints from there would help.",
+            rods.legs.len() - 1,
+            shown(rods.radius),
+            rods.centre.map(shown).join(", "),
+            rods.legs[0],
+            rods.q[0],
+        )
+    };
+    if analysis.doubts.is_empty() { Vec::new() } else { analysis.parallel_rods.iter().map(reason).collect() }
 }
 
 /// The doubts of a kind, those over the most poses first.

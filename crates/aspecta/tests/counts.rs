@@ -78,6 +78,7 @@ fn robots_of_the_catalogue() {
         ("symmetric-five-bar", 10),
         ("2-prr", 6),
         ("3-rpr", 2),
+        ("irb-360", 2),
         ("linear-delta", 14),
         ("orthoglide", 9),
     ] {

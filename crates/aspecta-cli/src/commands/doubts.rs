@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use crate::output::{Align, Table, brief};
 use aspecta::aspect::{Analysis, Doubt, DoubtKind};
-use aspecta_cli::doubt::{largest_first, place};
+use aspecta_cli::doubt::{largest_first, place, reasons};
 use std::io::Write;
 
 /// Doubts listed of each kind; the rest is in the JSON.
@@ -11,7 +11,7 @@ const LISTED: usize = 8;
 /// Columns for the names of what is undecided.
 const NAMES: usize = 24;
 
-/// Prints a table for each kind of doubt there is.
+/// Prints a table for each kind of doubt there is, and what makes doubts last.
 pub fn print(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
     let hidden = "No upper bound: a whole aspect could hide in undecided boxes";
     let unjoined = "Bounds apart: undecided boxes may join pieces into one aspect, or part them";
@@ -24,6 +24,10 @@ pub fn print(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
         if doubts.len() > LISTED {
             writeln!(out, "  … and {} more (--json lists all)", doubts.len() - LISTED)?;
         }
+    }
+    for reason in reasons(analysis) {
+        writeln!(out)?;
+        super::summary::paragraph(out, &reason)?;
     }
     Ok(())
 }

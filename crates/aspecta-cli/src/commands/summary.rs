@@ -33,7 +33,7 @@ pub fn print(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
     paragraph(out, &run(analysis))
 }
 
-fn paragraph(out: &mut dyn Write, text: &str) -> Result<(), Failure> {
+pub(super) fn paragraph(out: &mut dyn Write, text: &str) -> Result<(), Failure> {
     let options = textwrap::Options::new(WIDTH).subsequent_indent("  ");
     Ok(writeln!(out, "{}", textwrap::fill(text, options))?)
 }

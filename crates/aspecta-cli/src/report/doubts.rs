@@ -1,7 +1,7 @@
 //! Where the bounds on the number of aspects are apart, and why.
 
 use super::tables::{measure_unit, mode_name, number, sign};
-use crate::doubt::{Coordinate, largest_first, place};
+use crate::doubt::{Coordinate, largest_first, place, reasons};
 use crate::figure::survey::coordinate_name;
 use aspecta::aspect::{Analysis, Doubt, DoubtKind};
 use maud::{Markup, html};
@@ -34,6 +34,7 @@ pub fn table(analysis: &Analysis) -> Markup {
         @if doubts.len() > LISTED {
             p { "… and " (doubts.len() - LISTED) " more: " code { "aspecta analyze --json" } " lists all." }
         }
+        @for reason in reasons(analysis) { p { (reason) } }
     }
 }
 

@@ -34,6 +34,7 @@ fn robots_lists_the_catalogue_and_shows_files() {
         "2-prr",
         "3-prr",
         "delta",
+        "irb-360",
         "linear-delta",
         "orthoglide",
         "spherical-3-rrr",

@@ -12,16 +12,21 @@ use super::result::*;
 use super::search::Search;
 use crate::certificate::{Certificate, Claim, Join, Seam};
 use crate::kinematics::WorkingMode;
+use crate::kinematics::parallel_rods::{ParallelRods, parallel_rods};
 use crate::paving::{Budget, Control, Mark, Node, Paving, Progress};
 use crate::robot::{Actuator, Leg, Robot, SliceError};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::time::Instant;
 
+/// Boxes after which a search ends by itself that cannot make the bounds meet.
+const HOPELESS_BOXES: u64 = 4_000_000;
+
 /// How an analysis is done.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
-    /// How far the paving goes.
+    /// How far the paving goes. Where nothing says when to stop: until the bounds meet, or [`crate::paving::MAX_BOXES`] boxes; 4 million
+    /// where [`Analysis::parallel_rods`] keep the bounds apart.
     pub budget: Budget,
     /// Coordinates to hold (index, value), as in [`Robot::slice`]: what is analysed are the poses that have these values.
     pub fix: Vec<(usize, f64)>,
@@ -72,7 +77,8 @@ pub fn analyze(robot: &Robot, options: &Options, control: &Control<'_>) -> Resul
     }
     let window = robot.slice(&options.fix)?;
     let modes = robot.working_modes();
-    let search = Search::run(robot, &window, &modes, &options.budget, control);
+    let parallel_rods = parallel_rods(robot);
+    let search = Search::run(robot, &window, &modes, &bounded(options.budget, &parallel_rods), control);
     let Search { atlas, counted, stop } = search;
     let paving = &atlas.sheets[0];
     let found: Vec<Found> =
@@ -93,6 +99,7 @@ pub fn analyze(robot: &Robot, options: &Options, control: &Control<'_>) -> Resul
         modes: modes.iter().enumerate().map(|(m, mode)| mode_report(robot, paving, m, *mode)).collect(),
         classes,
         doubts,
+        parallel_rods,
         certificate: options.certificate.then(|| certificate(&atlas, &counted)),
         parallel_aspects: parallel,
         serial_aspects: serial,
@@ -108,6 +115,12 @@ pub fn analyze(robot: &Robot, options: &Options, control: &Control<'_>) -> Resul
         labels,
         paving: { atlas.sheets }.swap_remove(0),
     })
+}
+
+/// The budget, ended early if it names no end and the bounds are not going to meet.
+fn bounded(budget: Budget, obstacles: &[ParallelRods]) -> Budget {
+    let is_open = budget.seconds.is_none() && budget.boxes.is_none();
+    if is_open && !obstacles.is_empty() { Budget { boxes: Some(HOPELESS_BOXES), ..budget } } else { budget }
 }
 
 /// One class, its aspects not yet numbered: label k + 1 stands for `class.aspects[k]`.

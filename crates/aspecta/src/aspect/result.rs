@@ -3,6 +3,7 @@
 use super::ascent::{Class, ascend};
 use super::measure::{Held, Measure};
 use crate::certificate::Certificate;
+use crate::kinematics::parallel_rods::ParallelRods;
 use crate::kinematics::{WorkingMode, for_platform};
 use crate::paving::{BoxOf, Paving, Stop};
 use crate::robot::{Robot, Window};
@@ -37,6 +38,8 @@ pub struct Analysis {
     pub classes: Vec<AspectClass>,
     /// What keeps the bounds apart, where they do not meet; empty if they do.
     pub doubts: Vec<Doubt>,
+    /// Surfaces on which det A vanishes to higher order: a reason for doubts that no refinement removes.
+    pub parallel_rods: Vec<ParallelRods>,
     /// Definition 5 applied to this robot: what figures 6 and 7 show. Two entries, det A > 0 and < 0.
     pub parallel_aspects: Vec<EarlierAspects>,
     /// Definition 6 applied to this robot: domains of constant sign of the B_jj, one entry a mode.

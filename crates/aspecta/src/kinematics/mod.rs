@@ -8,6 +8,7 @@ pub mod leg;
 pub mod limits;
 pub mod modal;
 mod out_of_reach;
+pub mod parallel_rods;
 pub mod placement;
 pub mod segment;
 mod singularity;

@@ -26,6 +26,7 @@ const ENTRIES: &[Entry] = entries![
     "3-prr",
     "3-rpr",
     "delta",
+    "irb-360",
     "linear-delta",
     "orthoglide",
     "spherical-3-rrr",
