@@ -6,5 +6,5 @@ pub mod domains;
 pub mod doubt;
 pub mod figure;
 pub mod file;
-pub mod ply;
+pub mod mesh;
 pub mod report;

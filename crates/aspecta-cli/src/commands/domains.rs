@@ -11,8 +11,10 @@ use aspecta::domain::characteristic::{Characteristic, GivenUp};
 use aspecta::domain::{DomainError, DomainOptions, Domains as Found, domains};
 use aspecta::paving::{Budget, Stop};
 use aspecta::robot::Robot;
+use aspecta_cli::domains::{self as figures, Format};
 use aspecta_cli::figure::regions::Cut;
-use aspecta_cli::{domains as figures, file};
+use aspecta_cli::file;
+
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 use std::io::Write;
@@ -39,9 +41,12 @@ pub struct Domains {
     #[arg(long)]
     json: bool,
     /// Write maps of the basic regions and of the largest uniqueness domain into this directory, and for robots with 3
-    /// coordinates the boundary and the characteristic surface as PLY meshes
+    /// coordinates the boundary and the characteristic surface as meshes
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Formats of the meshes: a list of ply, glb (glTF, both in colour in one file) and vtp (VTK, with joint vectors)
+    #[arg(long, value_name = "LIST", value_delimiter = ',', requires = "out", default_value = "ply,glb")]
+    meshes: Vec<Format>,
     /// When to stop telling the aspects apart, as for `analyze` [default: depth=11 for 2 coordinates, depth=7 for 3]
     #[arg(long, value_parser = budget::parse, allow_hyphen_values = true)]
     budget: Option<Budget>,
@@ -115,7 +120,9 @@ impl Domains {
             for (domains, (boundary, surface)) in found.iter().zip(&surfaces) {
                 incomplete(surface);
                 let cut = Cut { analysis: &analysis, domains, boundary, surface };
-                for path in figures::write(&cut, directory).map_err(Failure::in_directory(directory))? {
+                for path in
+                    figures::write(&cut, &self.meshes, directory).map_err(Failure::in_directory(directory))?
+                {
                     let written = path.display();
                     if self.json {
                         note(&format!("written: {written}"))

@@ -1,5 +1,8 @@
 //! Colours that colour-blind readers can tell apart.
 
+use aspecta::domain::boundary::Face;
+use aspecta::kinematics::modal::Constraint;
+
 /// Okabe & Ito's colours (without black), then those of Tol's *muted* scheme that stay distinct from them.
 const ASPECTS: [&str; 12] = [
     "#56b4e9", "#e69f00", "#009e73", "#cc79a7", "#0072b2", "#d55e00", "#f0e442", "#882255", "#44aa99",
@@ -39,10 +42,26 @@ pub fn shade(hue: usize, k: usize, of: usize) -> String {
     // From a quarter black to two thirds white.
     let (towards, share) =
         if of < 2 || at > 0.25 { (255.0, (at - 0.25).max(0.0) / 0.75 * 0.67) } else { (0.0, 0.25 - at) };
-    let base = aspect(hue);
-    let channel = |c: usize| {
-        let value = f64::from(u8::from_str_radix(&base[c..c + 2], 16).unwrap_or_default());
+    let [r, g, b] = channels(aspect(hue)).map(|c| {
+        let value = f64::from(c);
         (value + share * (towards - value)).round() as u8
-    };
-    format!("#{:02x}{:02x}{:02x}", channel(1), channel(3), channel(5))
+    });
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
+
+/// Red, green and blue of a colour written `#rrggbb`.
+pub fn channels(colour: &str) -> [u8; 3] {
+    [1, 3, 5].map(|at| u8::from_str_radix(&colour[at..at + 2], 16).unwrap_or_default())
+}
+
+/// The colour of a face of an aspect: parallel singularities red, serial ones blue to green, limits yellow to purple.
+pub fn face(face: Face) -> &'static str {
+    const SERIAL: [&str; 6] = ["#0072b2", "#009e73", "#56b4e9", "#332288", "#44aa99", "#999933"];
+    const LIMITS: [&str; 4] = ["#e69f00", "#cc79a7", "#f0e442", "#882255"];
+    match face {
+        Face::Of(Constraint::Det) => "#d55e00",
+        Face::Of(Constraint::Reach(leg)) => SERIAL[leg % SERIAL.len()],
+        Face::Of(Constraint::Limit(leg, limit)) => LIMITS[(leg + limit) % LIMITS.len()],
+        Face::Cut { .. } => UNDECIDED,
+    }
 }

@@ -1,57 +1,15 @@
-//! Pictures of basic regions and uniqueness domains, and the meshes beside them.
+//! Maps of the workspace.
 
-mod common;
-
-use aspecta::aspect::{Analysis, DetSign};
+use crate::Case;
+use crate::common::{analysis, five_bar, three_rrr};
 use aspecta::domain::boundary::Boundary;
-use aspecta::domain::characteristic::Characteristic;
-use aspecta::domain::{DomainOptions, Domains, domains};
-use aspecta::paving::Control;
-use aspecta::robot::catalogue;
 use aspecta_cli::figure::barrier::Kind;
 use aspecta_cli::figure::palette::{PALE, SINGLE, UNDECIDED};
 use aspecta_cli::figure::raster::Raster;
-use aspecta_cli::figure::regions::{Cut, regions, uniqueness};
+use aspecta_cli::figure::regions::{regions, uniqueness};
 use aspecta_cli::figure::section::{Mesh, Plane};
-use aspecta_cli::ply;
-use common::{analysis, five_bar, three_rrr};
-use ply_rs_bw::parser::Parser;
-use ply_rs_bw::ply::{DefaultElement, Property};
 use roxmltree::{Document, Node};
 use std::collections::{BTreeMap, BTreeSet};
-use std::f64::consts::PI;
-use std::sync::atomic::AtomicBool;
-
-/// An aspect with all that is drawn of it.
-struct Case {
-    analysis: Analysis,
-    domains: Domains,
-    boundary: Boundary,
-    surface: Characteristic,
-}
-
-impl Case {
-    /// Regions in 1/`cells` of the window, surfaces on a grid of `mesh` cells.
-    fn new(analysis: Analysis, id: usize, cells: usize, mesh: usize) -> Self {
-        let control = Control { cancelled: &AtomicBool::new(false), progress: &|_| {} };
-        let domains = domains(&analysis, id, DomainOptions { cells, samples: 1000 }, &control).unwrap();
-        let boundary = Boundary::new(&analysis, id, mesh).unwrap();
-        let surface = Characteristic::new(&analysis, &boundary).unwrap();
-        Self { analysis, domains, boundary, surface }
-    }
-
-    fn three_rpr(cells: usize, mesh: usize) -> Self {
-        let analysis = analysis(&catalogue::find("3-rpr").unwrap(), 7);
-        let class = analysis.classes.iter().find(|c| c.det_a == DetSign::Positive).unwrap();
-        let id = class.aspects[0].id;
-        Self::new(analysis, id, cells, mesh)
-    }
-
-    fn cut(&self) -> Cut<'_> {
-        let Self { analysis, domains, boundary, surface } = self;
-        Cut { analysis, domains, boundary, surface }
-    }
-}
 
 /// The colour of an element that is filled with nothing else but it.
 fn filled(node: &Node<'_, '_>) -> Option<String> {
@@ -121,46 +79,6 @@ fn the_three_rpr_has_the_colours_of_ten_regions() {
 fn hue(colour: &str) -> f64 {
     let [r, g, b] = [1, 3, 5].map(|k| f64::from(u8::from_str_radix(&colour[k..k + 2], 16).unwrap()));
     (3_f64.sqrt() * (g - b)).atan2(2.0 * r - g - b).to_degrees()
-}
-
-/// What another reader of PLY makes of the files.
-#[test]
-fn ply_files_hold_the_meshes() {
-    let case = Case::three_rpr(10, 12);
-    let boundary = Mesh::from(&case.boundary);
-    let faces = ply::faces(&boundary);
-    let names = ["x [unit]", "y [unit]", "φ [rad]"].map(str::to_owned);
-    for mesh in [boundary, Mesh::from(&case.surface)] {
-        assert!(mesh.simplices.len() > 500);
-        let file = ply::ply(&mesh, &names, &faces, true);
-        let end = file.windows(10).position(|w| w == b"end_header").unwrap();
-        assert!(file[..end].is_ascii());
-        let read = Parser::<DefaultElement>::new().read_ply(&mut &file[..]).unwrap();
-        assert!(read.header.comments.iter().any(|c| c.contains("det A = 0")), "{:?}", read.header.comments);
-        let (vertices, triangles) = (&read.payload["vertex"], &read.payload["face"]);
-        assert_eq!(triangles.len(), mesh.simplices.len());
-        // Vertices are written as they are, copies after them; no triangle spans the full turn.
-        assert!(vertices.len() > mesh.vertices.len(), "the mesh does not cross φ = π: nothing is tested");
-        let angle = |v: i32| match vertices[v as usize]["z"] {
-            Property::Double(z) => z,
-            ref other => panic!("{other:?}"),
-        };
-        for (v, pose) in mesh.vertices.iter().enumerate() {
-            assert_eq!(vertices[v]["x"], Property::Double(pose[0]));
-            assert_eq!(angle(v as i32), pose[2]);
-        }
-        for (triangle, simplex) in triangles.iter().zip(mesh.simplices) {
-            let Property::ListInt(corners) = &triangle["vertex_indices"] else { panic!("{triangle:?}") };
-            assert_eq!(corners.len(), 3);
-            for (&drawn, &corner) in corners.iter().zip(&simplex.corners) {
-                let turns = (angle(drawn) - mesh.vertices[corner as usize][2]) / (2.0 * PI);
-                assert!((turns - turns.round()).abs() < 1e-12);
-                assert!((angle(drawn) - angle(corners[0])).abs() < PI);
-            }
-            let face = faces.iter().position(|f| *f == simplex.face).unwrap();
-            assert_eq!(triangle["face"], Property::UChar(face as u8));
-        }
-    }
 }
 
 /// Where a plane meets the serial part of the boundary, a leg of the 3-RRR is stretched: |AᵢCᵢ| = 20.
