@@ -1,7 +1,7 @@
 //! Basic regions of one aspect, and where a pose lies among them. Run `cargo bench --bench domains`.
 
-use aspecta::aspect::{Options, analyze};
-use aspecta::domain::{DomainOptions, domains};
+use aspecta::aspect::{Analysis, Options, analyze};
+use aspecta::domain::{DomainOptions, Domains, Map, MappedAspect, domains};
 use aspecta::paving::{Budget, Control};
 use aspecta::robot::catalogue;
 use criterion::{Criterion, criterion_group, criterion_main};
@@ -29,6 +29,33 @@ fn partition(c: &mut Criterion) {
     c.bench_function("domains/region at a pose", |b| {
         b.iter(|| found.region_at(&analysis, black_box(&[-15.468, 0.781, 0.073])));
     });
+    locate(c, &analysis, found);
+}
+
+/// A pose at a time, near surfaces or not, after a journey through the file.
+fn locate(c: &mut Criterion, analysis: &Analysis, found: Domains) {
+    let mode = found.mode;
+    let grid = found.labels.grid.clone();
+    let map = Map::new(analysis, vec![MappedAspect { domains: found, surfaces: None }]);
+    let file = map.to_bytes().expect("a file");
+    c.bench_function("locate/load", |b| b.iter(|| Map::from_bytes(black_box(&file))));
+    let map = Map::from_bytes(&file).expect("a map");
+    let mut poses = (0..grid.len()).step_by(9973).map(|node| grid.pose(node)).cycle();
+    c.bench_function("locate/anywhere", |b| {
+        b.iter(|| map.locate(black_box(&poses.next().unwrap_or_default()), mode))
+    });
+    let inside = |pose: &[f64; 3]| map.locate(pose, mode).is_ok_and(|l| l.region.is_some());
+    let within: Vec<[f64; 3]> =
+        (0..grid.len()).step_by(997).map(|node| grid.pose(node)).filter(inside).collect();
+    let mut poses = within.iter().cycle();
+    c.bench_function("locate/in the aspect", |b| {
+        b.iter(|| poses.next().map(|pose| map.locate(black_box(pose), mode)))
+    });
+    for (name, pose) in
+        [("in a region", [-15.468, 0.781, 0.073]), ("near a surface", [-9.902, -7.091, 1.081])]
+    {
+        c.bench_function(&format!("locate/{name}"), |b| b.iter(|| map.locate(black_box(&pose), mode)));
+    }
 }
 
 criterion_group!(benches, partition);

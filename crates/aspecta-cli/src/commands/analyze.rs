@@ -1,5 +1,6 @@
 //! `aspecta analyze`: working modes and generalized aspects.
 
+use super::target::Target;
 use super::{budget, fix, summary, watch};
 use crate::failure::{Answer, Failure};
 use crate::input;
@@ -8,9 +9,8 @@ use aspecta::aspect::{Analysis, Options, analyze};
 use aspecta::paving::{Budget, Stop};
 use aspecta_cli::{file, report};
 use clap::Args;
-use std::fs;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Arguments of `analyze`.
 #[derive(Args)]
@@ -44,17 +44,6 @@ pub struct Analyze {
     threads: Option<u16>,
 }
 
-/// The directory and the name of a file that is to be written: the directory must be there before the long work begins.
-fn place(path: &Path) -> Result<(PathBuf, String), Failure> {
-    let directory = path.parent().filter(|d| !d.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let name = path.file_name().and_then(|name| name.to_str());
-    let Some(name) = name.filter(|_| !path.is_dir()) else {
-        return Err(Failure::Input(format!("--certificate {}: give the name of a file", path.display())));
-    };
-    fs::read_dir(directory).map_err(Failure::in_directory(directory))?;
-    Ok((directory.to_owned(), name.to_owned()))
-}
-
 impl Analyze {
     pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
         let robot = input::robot(&self.robot)?;
@@ -62,13 +51,13 @@ impl Analyze {
         if let Some(directory) = &self.out {
             file::writable(directory).map_err(Failure::in_directory(directory))?;
         }
-        let proof = self.certificate.as_deref().map(place).transpose()?;
+        let proof = self.certificate.as_deref().map(|path| Target::new("--certificate", path)).transpose()?;
         let options = Options { budget: self.budget.unwrap_or_default(), fix, certificate: proof.is_some() };
         let analysis = watch::watched(self.threads, |control| analyze(&robot, &options, control))??;
         self.print(out, &analysis)?;
-        if let (Some((directory, name)), Some(certificate)) = (&proof, &analysis.certificate) {
+        if let (Some(target), Some(certificate)) = (&proof, &analysis.certificate) {
             let text = certificate.to_json().map_err(|e| Failure::Input(format!("certificate: {e}")))?;
-            let path = file::put(directory, name, &text).map_err(Failure::in_directory(directory))?;
+            let path = target.write(&text)?;
             note(&format!("certificate: {}", path.display()));
         }
         if analysis.run.stop == Stop::Cancelled {

@@ -11,12 +11,17 @@ mod doubts;
 mod fix;
 mod fk;
 mod ik;
+mod locate;
+mod mapping;
+mod places;
 mod queries;
+mod regions;
 mod robots;
 mod schema;
 mod solutions;
 mod state;
 mod summary;
+mod target;
 mod verify;
 mod watch;
 
@@ -31,6 +36,8 @@ pub enum Command {
     Analyze(analyze::Analyze),
     /// Basic regions and uniqueness domains of an aspect: where a joint vector means one pose
     Domains(domains::Domains),
+    /// In which aspect, basic region and uniqueness domains a pose lies, or the poses of a joint vector
+    Locate(locate::Locate),
     /// Check a certificate of the number of aspects, independently of what computed it
     Verify(verify::Verify),
     /// All inverse solutions of a pose, one per working mode
@@ -59,6 +66,7 @@ impl Command {
         match self {
             Self::Analyze(command) => command.run(out),
             Self::Domains(command) => command.run(out),
+            Self::Locate(command) => command.run(out),
             Self::Verify(command) => command.run(out),
             Self::Ik(command) => command.run(out),
             Self::Fk(command) => command.run(out),

@@ -13,10 +13,10 @@ use super::slices::{Panels, place};
 use super::survey::pose_axis;
 use super::svg::{Anchor, Svg};
 use crate::report::tables::{measure_unit, number as number_text};
-use aspecta::aspect::Analysis;
 use aspecta::domain::boundary::Boundary;
 use aspecta::domain::characteristic::Characteristic;
 use aspecta::domain::{BasicRegion, Domains, OUTSIDE};
+use aspecta::robot::{Robot, Window};
 
 /// Most slices in a figure, and how many are in a row.
 const SLICES: usize = 12;
@@ -37,8 +37,10 @@ const CHARACTERISTIC: &str = "fill:none;stroke:#222;stroke-width:0.6;stroke-line
 /// What is drawn: an aspect cut into its regions, and the surfaces that bound them.
 #[derive(Clone, Copy, Debug)]
 pub struct Cut<'a> {
-    /// The analysis.
-    pub analysis: &'a Analysis,
+    /// The robot.
+    pub robot: &'a Robot,
+    /// The box that holds its workspace.
+    pub window: &'a Window,
     /// The regions of one of its aspects.
     pub domains: &'a Domains,
     /// The boundary of that aspect.
@@ -94,15 +96,15 @@ fn sheet(
     colours: &[String],
     is_shown: &dyn Fn(usize) -> bool,
 ) -> String {
-    let Cut { analysis, domains, .. } = cut;
-    let grid = &domains.partition.grid;
+    let Cut { robot, window, domains, .. } = cut;
+    let grid = &domains.labels.grid;
     let in_plane = grid.axes() == 2;
     let layers = if in_plane { vec![0] } else { layers(domains) };
     let count = SLICES.min(layers.len());
     let axes = [0, 1].map(|k| {
         let low = grid.pose(0)[k] - 0.5 * grid.step[k];
         let range = (low, low + grid.step[k] * grid.count[k] as f64);
-        Axis { range, ..pose_axis(&analysis.robot, &analysis.window, k) }
+        Axis { range, ..pose_axis(robot, window, k) }
     });
     let (side, columns) = if in_plane { (MAP, 1) } else { (SLICE, COLUMNS) };
     let panels = Panels::new(axes, side, columns, HEADING);
@@ -117,13 +119,13 @@ fn sheet(
     for k in 0..count {
         let layer = layers[(2 * k + 1) * layers.len() / (2 * count)];
         let at = grid.pose(layer * grid.count[0] * grid.count[1])[2];
-        let plane = (!in_plane).then(|| Plane { at, glued: analysis.window.glued[2] });
+        let plane = (!in_plane).then(|| Plane { at, glued: window.glued[2] });
         let chart = panels.chart(k);
         let raster = layer_of(domains, layer);
         fill(&mut svg, &chart, &raster, |label| colour(colours, label));
         draw_surfaces(&mut svg, &chart, cut, plane);
         number(&mut svg, &chart, &raster, domains.regions.len(), is_shown);
-        chart.frame(&mut svg, &if in_plane { String::new() } else { place(&analysis.robot, at) });
+        chart.frame(&mut svg, &if in_plane { String::new() } else { place(robot, at) });
     }
     legend.draw(&mut svg, height + 10.0);
     svg.finish()
@@ -131,15 +133,15 @@ fn sheet(
 
 /// The layers across the third coordinate that meet the aspect.
 fn layers(domains: &Domains) -> Vec<usize> {
-    let [columns, rows, _] = domains.partition.grid.count;
-    let layers = domains.partition.region.chunks(columns * rows).enumerate();
+    let [columns, rows, _] = domains.labels.grid.count;
+    let layers = domains.labels.region.chunks(columns * rows).enumerate();
     layers.filter(|(_, nodes)| nodes.iter().any(|&r| r != OUTSIDE)).map(|(layer, _)| layer).collect()
 }
 
 /// The labels of the nodes of a layer across the third coordinate.
 fn layer_of(domains: &Domains, layer: usize) -> Raster<u32> {
-    let [columns, rows, _] = domains.partition.grid.count;
-    let region = &domains.partition.region;
+    let [columns, rows, _] = domains.labels.grid.count;
+    let region = &domains.labels.region;
     Raster::from_fn(columns, rows, |c, r| region[c + columns * (r + rows * layer)])
 }
 
@@ -207,7 +209,7 @@ impl Legend<'_> {
         let (domains, shown) = (self.cut.domains, self.shown());
         let listed = &shown[..shown.len().min(LISTED)];
         let rows = listed.len().div_ceil(self.columns());
-        let (mut y, unit) = (top, measure_unit(self.cut.analysis));
+        let (mut y, unit) = (top, measure_unit(&self.cut.domains.unit));
         for (k, region) in listed.iter().enumerate() {
             let at = [self.left + ENTRY * (k / rows) as f64, y + LINE * (k % rows) as f64];
             let measure = number_text(region.measure);

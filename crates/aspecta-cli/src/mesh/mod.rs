@@ -60,8 +60,7 @@ pub struct Data {
 impl Surfaces {
     /// The surfaces of an aspect; `None` unless its robot has three coordinates.
     pub fn new(cut: &Cut<'_>) -> Option<Self> {
-        let Cut { analysis, domains, boundary, surface } = cut;
-        let robot = &analysis.robot;
+        let Cut { robot, window, domains, boundary, surface } = cut;
         if robot.dof() != 3 {
             return None;
         }
@@ -72,11 +71,11 @@ impl Surfaces {
             }
         }
         faces.sort_by_key(|face| name(*face));
-        let (glued, joints) = (analysis.window.glued[2], Joints::of(cut));
+        let (glued, joints) = (window.glued[2], Joints::of(cut));
         Some(Self {
             robot: robot.name.clone(),
             aspect: format!("aspect {}, mode {}, det A {}", domains.aspect, domains.mode, domains.det_a),
-            coordinates: std::array::from_fn(|k| pose_axis(robot, &analysis.window, k).label),
+            coordinates: std::array::from_fn(|k| pose_axis(robot, window, k).label),
             angle: robot.platform.coordinates()[2].angle,
             surfaces: [
                 Surface::boundary(boundary, &faces, glued, &joints),
@@ -95,7 +94,7 @@ struct Joints<'a> {
 
 impl<'a> Joints<'a> {
     fn of(cut: &'a Cut<'a>) -> Self {
-        let robot = &cut.analysis.robot;
+        let robot = &cut.robot;
         let name = |j: usize| {
             let angle = robot.legs[j].actuator.is_angle();
             format!("q{} [{}]", j + 1, if angle { "rad" } else { &robot.length_unit })
@@ -104,7 +103,7 @@ impl<'a> Joints<'a> {
     }
 
     fn data<'p>(&self, poses: impl Iterator<Item = &'p [f64]>) -> Data {
-        let q = |pose| Barriers::at(&self.cut.analysis.robot, self.cut.domains.mode, pose).q;
+        let q = |pose| Barriers::at(self.cut.robot, self.cut.domains.mode, pose).q;
         let values = poses.map(|pose| triple(&q(pose))).collect();
         Data { name: "q", components: self.components.clone(), values }
     }
@@ -120,8 +119,8 @@ impl Surface {
     fn characteristic(of: &Characteristic, faces: &[Face], glued: bool, joints: &Joints<'_>) -> Self {
         let poses = of.vertices.iter().map(|v| &v.pose[..]);
         let sources = of.vertices.iter().map(|v| triple(&of.sources[v.source as usize].pose));
-        let robot = &joints.cut.analysis.robot;
-        let components = std::array::from_fn(|k| pose_axis(robot, &joints.cut.analysis.window, k).label);
+        let robot = &joints.cut.robot;
+        let components = std::array::from_fn(|k| pose_axis(robot, joints.cut.window, k).label);
         let source = Data { name: "source", components, values: sources.collect() };
         let data = vec![joints.data(poses.clone()), source];
         Self::glued("characteristic", poses.map(triple).collect(), &of.simplices, faces, glued, data)

@@ -26,7 +26,7 @@ pub fn table(analysis: &Analysis) -> Markup {
             }
             thead { tr {
                 th scope="col" { "mode" } th scope="col" { "det A" } th scope="col" { "undecided boxes" }
-                th scope="col" { "their number" } th scope="col" { (analysis.measure.name) " [" (measure_unit(analysis)) "]" }
+                th scope="col" { "their number" } th scope="col" { (analysis.measure.name) " [" (measure_unit(&analysis.measure)) "]" }
                 th scope="col" { "for example in" } th scope="col" { "undecided there" }
             } }
             tbody { @for doubt in doubts.iter().take(LISTED) { (row(analysis, doubt)) } }

@@ -179,7 +179,7 @@ fn maps_section(analysis: &Analysis, flat: &FlatFigures) -> Markup {
             (tabs("class", &names, &flat.classes, |k| {
                 let c = &analysis.classes[k];
                 html! { "Mode (" (signs(&c.mode.to_string())) "), " (crate::figure::maps::sign_text(c.det_a)) ": "
-                    (bounds(c.low, c.high)) " (certified), " (number(c.measure)) " " (measure_unit(analysis)) " proved inside, "
+                    (bounds(c.low, c.high)) " (certified), " (number(c.measure)) " " (measure_unit(&analysis.measure)) " proved inside, "
                     (number(c.undecided)) " undecided. Solid: parallel singularities, where the platform moves with locked motors; \
                     dashed: serial singularities, where a leg is stretched or folded." }
             }))
@@ -230,7 +230,7 @@ fn earlier_section(analysis: &Analysis, figures: &Figures) -> Markup {
                     "Definition 5 (figures 6 and 7 of the paper): all configurations with det A of one sign, in W" @if has_q(analysis) { " and in Q" } ". Shades count the \
                      configurations over a place. More than one over a pose: the domain holds several inverse solutions and does \
                      not separate them. In W both signs share " (number(analysis.parallel_aspects.first().map_or(0.0, |e| e.overlap))) " "
-                    (measure_unit(analysis)) " (certified): there the sign of det A says nothing about where the robot is."
+                    (measure_unit(&analysis.measure)) " (certified): there the sign of det A says nothing about where the robot is."
                 }))
                 (figure(&flat.serial, html! {
                     "Definition 6: all configurations of one working mode, in W"

@@ -3,7 +3,7 @@
 use crate::figure::palette;
 use crate::figure::robot::{signs, subscript};
 use crate::figure::survey::coordinate_name;
-use aspecta::aspect::{Analysis, AspectClass, DetSign, Reachable};
+use aspecta::aspect::{Analysis, AspectClass, DetSign, Measure, Reachable};
 use aspecta::kinematics::WorkingMode;
 use aspecta::robot::{Actuator, Leg, Robot};
 use maud::{Markup, html};
@@ -101,7 +101,7 @@ pub fn classes(analysis: &Analysis) -> Markup {
         table {
             caption {
                 "Table 2. Generalized aspects of each working mode and sign of det A: certified bounds on their number, and \
-                 the " (what) " of their projections on the workspace in " (measure_unit(analysis)) "."
+                 the " (what) " of their projections on the workspace in " (measure_unit(&analysis.measure)) "."
             }
             thead { tr {
                 th scope="col" { "det A" } th scope="col" { "mode" }
@@ -195,9 +195,9 @@ pub fn bounds(low: usize, high: Option<usize>) -> String {
 }
 
 /// The unit of a measure of poses: `mm²·rad`.
-pub fn measure_unit(analysis: &Analysis) -> String {
+pub fn measure_unit(measure: &Measure) -> String {
     let power = |(unit, n): &(String, usize)| format!("{unit}{}", ["", "", "²", "³"].get(*n).unwrap_or(&""));
-    analysis.measure.unit.0.iter().map(power).collect::<Vec<_>>().join("·")
+    measure.unit.0.iter().map(power).collect::<Vec<_>>().join("·")
 }
 
 fn pose_names(robot: &Robot) -> String {

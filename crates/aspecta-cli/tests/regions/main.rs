@@ -42,6 +42,6 @@ impl Case {
 
     fn cut(&self) -> Cut<'_> {
         let Self { analysis, domains, boundary, surface } = self;
-        Cut { analysis, domains, boundary, surface }
+        Cut { robot: &analysis.robot, window: &analysis.window, domains, boundary, surface }
     }
 }

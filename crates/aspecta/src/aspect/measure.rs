@@ -33,7 +33,7 @@ impl fmt::Display for Held {
 }
 
 /// What the measures of an analysis are of: the poses as a set of the coordinates that vary.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Measure {
     /// `length`, `angle`, `area` or `volume`.
     pub name: &'static str,
@@ -42,7 +42,7 @@ pub struct Measure {
 }
 
 impl Measure {
-    pub(super) fn over(robot: &Robot, window: &Window) -> Self {
+    pub(crate) fn over(robot: &Robot, window: &Window) -> Self {
         let axes = window.axes();
         let angles = axes.iter().filter(|&&k| window.angles[k]).count();
         let name = match (axes.len(), angles) {
@@ -58,7 +58,7 @@ impl Measure {
 }
 
 /// A product of powers of units; `mm^2 rad` as a text and in JSON.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Unit(pub Vec<(String, usize)>);
 
 impl fmt::Display for Unit {

@@ -7,7 +7,7 @@ use crate::kinematics::parallel_rods::ParallelRods;
 use crate::kinematics::{WorkingMode, for_platform};
 use crate::paving::{BoxOf, Paving, Stop};
 use crate::robot::{Robot, Window};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Version of the JSON layout of [`Analysis`]; raised when a field changes its meaning or goes away.
 pub const FORMAT_VERSION: u32 = 1;
@@ -133,7 +133,7 @@ fn aspect_uphill<const D: usize, const N: usize>(
 }
 
 /// Proved bounds on a number of aspects.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Count {
     /// There are at least this many.
     pub low: usize,
@@ -175,7 +175,7 @@ pub enum DoubtKind {
 }
 
 /// The sign of det A.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum DetSign {
     /// det A > 0.
     #[serde(rename = "+")]

@@ -181,7 +181,8 @@ fn sane(x: &Interval) -> bool {
     usable(x.lo) && usable(x.hi) && x.lo <= x.hi
 }
 
-fn check_robot(robot: &Robot) -> Result<(), Unsound> {
+/// Whether a robot that was read from a file of results is one.
+pub(crate) fn check_robot(robot: &Robot) -> Result<(), Unsound> {
     Robot::new(&robot.name, robot.platform, robot.legs.clone())?;
     let n = robot.dof();
     holds(n <= 3, "aspects are certified for robots of 2 and 3 degrees of freedom")?;

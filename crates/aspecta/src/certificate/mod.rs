@@ -6,6 +6,7 @@ mod check;
 mod tree;
 
 pub use check::Unsound;
+pub(crate) use check::check_robot;
 pub use tree::{DEEPEST, Entry, Leaf, Tree, TreeError};
 
 use crate::aspect::Scale;

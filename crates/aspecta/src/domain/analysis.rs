@@ -2,7 +2,8 @@
 
 use super::grid::Grid;
 use super::images::Images;
-use super::partition::{OUTSIDE, Partition, Region};
+use super::labels::OUTSIDE;
+use super::partition::{Partition, Region};
 use super::result::*;
 use super::sheet::Sheet;
 use super::uniqueness::maximal_sets;
@@ -45,10 +46,10 @@ pub fn domains(
     }
     let all = partition.regions();
     let (regions, slivers) = all.split_at(all.iter().take_while(|region| region.is_resolved()).count());
-    let cell = partition.grid.measure();
+    let cell = partition.labels.grid.measure();
     let measure_of = |regions: &[Region]| regions.iter().map(|r| r.nodes as f64 * cell).sum::<f64>();
     let images = partition.images(&all);
-    let adjacent = among(regions, partition.adjacent());
+    let adjacent = among(regions, partition.labels.adjacent());
     let meeting = among(regions, images.meeting());
     let (uniqueness, complete) = uniqueness(analysis, &partition, regions, &adjacent, &meeting);
     let entry = &analysis.classes[class];
@@ -57,7 +58,7 @@ pub fn domains(
         mode: entry.mode,
         det_a: entry.det_a,
         unit: analysis.measure.clone(),
-        cell: partition.grid.step[..partition.grid.axes()].to_vec(),
+        cell: partition.labels.grid.step[..partition.labels.grid.axes()].to_vec(),
         measure: measure_of(&all),
         unresolved: Unresolved { parts: slivers.len(), measure: measure_of(slivers) },
         regions: (1..).zip(regions).map(|(number, r)| basic_region(&partition, number, r)).collect(),
@@ -68,7 +69,7 @@ pub fn domains(
         violations: violations(&sheet, &partition, &images, regions.len()),
         agreement: agreement(&sheet, &partition, regions, options.samples),
         failed: partition.failed,
-        partition,
+        labels: partition.labels,
     })
 }
 
@@ -88,7 +89,7 @@ fn uniqueness(
     meeting: &Pairs,
 ) -> (Vec<UniquenessDomain>, bool) {
     let (sets, complete) = maximal_sets(regions.len(), adjacent, meeting);
-    let cell = partition.grid.measure();
+    let cell = partition.labels.grid.measure();
     let aspect = partition.solutions.iter().filter(|count| **count > 0).count() as f64 * cell;
     let workspace = workspace(analysis);
     let domain = |set: Vec<usize>| {
@@ -118,7 +119,7 @@ fn workspace(analysis: &Analysis) -> Option<f64> {
 }
 
 fn basic_region(partition: &Partition, number: usize, region: &Region) -> BasicRegion {
-    let grid = &partition.grid;
+    let grid = &partition.labels.grid;
     BasicRegion {
         number,
         measure: region.nodes as f64 * grid.measure(),
@@ -137,13 +138,13 @@ fn coincidences(images: &Images, meeting: &Pairs) -> Vec<Coincidence> {
 }
 
 fn violations(sheet: &Sheet<'_>, partition: &Partition, images: &Images, regions: usize) -> Vec<Violation> {
-    let grid = &partition.grid;
+    let grid = &partition.labels.grid;
     let violation = |region: usize| {
         let pose = grid.pose(images.within(region)?)[..grid.axes()].to_vec();
         let joints = sheet.joints(&pose)?;
         let mut twin = None;
         sheet.others(&pose, &joints, |other| {
-            if twin.is_none() && partition.region_round(other) == Some(region as u32) {
+            if twin.is_none() && partition.labels.region_round(other) == Some(region as u32) {
                 twin = Some(other.to_vec());
             }
         });
@@ -154,7 +155,7 @@ fn violations(sheet: &Sheet<'_>, partition: &Partition, images: &Images, regions
 
 /// Compares the partition with the direct model at random poses.
 fn agreement(sheet: &Sheet<'_>, partition: &Partition, regions: &[Region], samples: usize) -> Agreement {
-    let grid = &partition.grid;
+    let grid = &partition.labels.grid;
     let mut agreement = Agreement::default();
     let mut random = 0x9e37_79b9_7f4a_7c15_u64;
     let mut uniform = || {
@@ -165,7 +166,8 @@ fn agreement(sheet: &Sheet<'_>, partition: &Partition, regions: &[Region], sampl
         z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
         ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
     };
-    let inside: Vec<usize> = (0..grid.len()).filter(|&node| partition.region[node] != OUTSIDE).collect();
+    let inside: Vec<usize> =
+        (0..grid.len()).filter(|&node| partition.labels.region[node] != OUTSIDE).collect();
     for _ in (0..samples).take_while(|_| !inside.is_empty()) {
         let node = inside[(uniform() * inside.len() as f64) as usize];
         let mut pose = grid.pose(node);
@@ -175,7 +177,8 @@ fn agreement(sheet: &Sheet<'_>, partition: &Partition, regions: &[Region], sampl
         let pose = &pose[..grid.axes()];
         let Some(joints) = sheet.joints(pose) else { continue };
         agreement.samples += 1;
-        let Some(region) = partition.region_round(pose).filter(|r| (*r as usize) < regions.len()) else {
+        let Some(region) = partition.labels.region_round(pose).filter(|r| (*r as usize) < regions.len())
+        else {
             continue;
         };
         agreement.away += 1;

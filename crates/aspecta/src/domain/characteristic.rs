@@ -19,7 +19,7 @@ use crate::kinematics::for_platform;
 use crate::kinematics::modal::Constraint;
 use crate::robot::{Limit, Platform};
 use net::Net;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// How often an edge of the boundary is halved where its solutions do not pair.
 pub const ROUNDS: usize = 3;
@@ -29,7 +29,7 @@ pub const APART: f64 = 1e-5;
 pub const SAME_JOINTS: f64 = 1e-9;
 
 /// A point of a characteristic surface.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct CharacteristicVertex {
     /// X′, strictly inside the aspect. Only where X lies on a limit of a driven joint does X′ lie on the same limit.
     pub pose: Vec<f64>,
@@ -38,7 +38,7 @@ pub struct CharacteristicVertex {
 }
 
 /// The characteristic surfaces of an aspect: polylines in two dimensions, triangle meshes in three.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Characteristic {
     /// [`crate::aspect::Aspect::id`].
     pub aspect: usize,
@@ -57,7 +57,7 @@ pub struct Characteristic {
 }
 
 /// How much of a characteristic surface was given up.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct GivenUp {
     /// Pieces of the boundary on which solutions begin or end: the rim, narrowed down by halving.
     pub rim: usize,

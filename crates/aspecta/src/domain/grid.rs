@@ -1,10 +1,11 @@
 //! A uniform grid of poses.
 
 use crate::robot::Window;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 /// Nodes at the centres of equal cells that fill a box of poses, up to three coordinates.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Grid {
     lo: [f64; 3],
     /// Width of a cell, per coordinate.
@@ -38,9 +39,15 @@ impl Grid {
         grid
     }
 
+    /// Whether it is a grid over poses with so many coordinates: one that is read may be anything.
+    pub(super) fn is_sound(&self, axes: usize) -> bool {
+        let positive = |k: usize| self.step[k] > 0.0 && self.step[k].is_finite() && self.lo[k].is_finite();
+        self.axes == axes && axes <= 3 && (0..3).all(|k| positive(k) && self.count[k] > 0)
+    }
+
     /// Number of nodes.
     pub fn len(&self) -> usize {
-        self.count.iter().product()
+        self.count.iter().fold(1, |nodes, &count| nodes.saturating_mul(count))
     }
 
     /// Length, area or volume of a cell.

@@ -1,6 +1,7 @@
 //! Which basic components coincide: regions whose poses share joint vectors.
 
-use super::partition::{OUTSIDE, Partition, Region};
+use super::labels::OUTSIDE;
+use super::partition::{Partition, Region};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,12 +14,12 @@ impl Partition {
     /// Evidence are the nodes that lie, with all those poses, away from the characteristic surfaces by a cell; where a region has none,
     /// all its nodes.
     pub fn images(&self, regions: &[Region]) -> Images {
-        let nodes = self.grid.len();
+        let nodes = self.labels.grid.len();
         let look = |mut tallies: [Tally; 2], chunk: usize| {
             let chunk = chunk * CHUNK..((chunk + 1) * CHUNK).min(nodes);
             for node in chunk.filter(|&node| self.solutions[node] > 1) {
                 let (images, sure) = self.images_of(regions, node);
-                tallies[usize::from(!sure)].entry(self.region[node]).or_default().add(node, &images);
+                tallies[usize::from(!sure)].entry(self.labels.region[node]).or_default().add(node, &images);
             }
             tallies
         };
@@ -36,14 +37,14 @@ impl Partition {
 
     /// The regions of the other poses with a node's joint vector, and whether these are sure.
     fn images_of(&self, regions: &[Region], node: usize) -> (BTreeSet<u32>, bool) {
-        let (mut images, mut sure) = (BTreeSet::new(), self.is_inner(node));
+        let (mut images, mut sure) = (BTreeSet::new(), self.labels.is_inner(node));
         for other in self.others(node) {
-            let other = &other[..self.grid.axes()];
+            let other = &other[..self.labels.grid.axes()];
             // A pose with the same joint vector has the same count; if the nodes round it do not, it lies in a sliver between them.
             let alike = |r: &u32| *r != OUTSIDE && regions[*r as usize].solutions == self.solutions[node];
-            let round = self.region_round(other).filter(alike);
+            let round = self.labels.region_round(other).filter(alike);
             sure &= round.is_some();
-            images.extend(round.or_else(|| self.region_beside(other, alike)));
+            images.extend(round.or_else(|| self.labels.region_beside(other, alike)));
         }
         (images, sure)
     }

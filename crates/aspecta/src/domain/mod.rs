@@ -14,13 +14,16 @@ pub mod cusps;
 mod field;
 mod grid;
 mod images;
+mod labels;
+mod map;
 mod partition;
 mod result;
 mod sheet;
 mod uniqueness;
 
 pub use analysis::domains;
-pub use partition::{OUTSIDE, Partition};
+pub use labels::{Labels, OUTSIDE};
+pub use map::{Location, MAP_VERSION, Map, MapError, MappedAspect, MappedClass, Nowhere, Surfaces};
 pub use result::{
     Agreement, BasicRegion, Coincidence, Disagreement, DomainError, DomainOptions, Domains, UniquenessDomain,
     Unresolved, Violation,

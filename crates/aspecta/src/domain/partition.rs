@@ -1,11 +1,12 @@
 //! Basic regions on a grid, and which of their images coincide.
 
 use super::grid::Grid;
+use super::labels::{Labels, OUTSIDE, padded};
 use super::sheet::{Match, Sheet};
 use crate::aspect::UnionFind;
 use crate::paving::{Control, Progress};
 use rayon::prelude::*;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Nodes a task looks at.
@@ -14,22 +15,16 @@ const CHUNK: usize = 1 << 12;
 /// The nodes of a grid that lie in an aspect, cut into basic regions.
 #[derive(Clone, Debug)]
 pub struct Partition {
-    /// The grid, over the aspect's box.
-    pub grid: Grid,
+    /// The region of each node of the grid over the aspect's box.
+    pub labels: Labels,
     /// n(X) per node: direct solutions of g(X) in the aspect, X among them; 0 outside the aspect.
     pub solutions: Vec<u8>,
-    /// The region of each node, from 0: resolved ones (with a node all of whose neighbours are in it too) before others, the larger first;
-    /// [`OUTSIDE`] outside the aspect.
-    pub region: Vec<u32>,
     /// Where the other poses of each node begin in `others`, and where they end.
     first: Vec<u32>,
     others: Vec<[f64; 3]>,
     /// Nodes at which the direct model failed: they count as having one solution.
     pub failed: usize,
 }
-
-/// Not in the aspect.
-pub const OUTSIDE: u32 = u32::MAX;
 
 /// A connected set of nodes with the same count.
 #[derive(Clone, Debug)]
@@ -59,11 +54,10 @@ impl Partition {
         let nodes = grid.len();
         let mut partition = Self {
             solutions: vec![0; nodes],
-            region: vec![OUTSIDE; nodes],
             first: Vec::with_capacity(nodes + 1),
             others: Vec::new(),
             failed: 0,
-            grid,
+            labels: Labels { grid, region: vec![OUTSIDE; nodes] },
         };
         partition.solve(sheet, control);
         // Nodes, and after them their other poses.
@@ -78,7 +72,7 @@ impl Partition {
     }
 
     fn solve(&mut self, sheet: &Sheet<'_>, control: &Control<'_>) {
-        let (grid, nodes) = (&self.grid, self.grid.len());
+        let (grid, nodes) = (&self.labels.grid, self.labels.grid.len());
         let done = AtomicUsize::new(0);
         let of_chunk = |chunk: usize| {
             let chunk = chunk * CHUNK..((chunk + 1) * CHUNK).min(nodes);
@@ -121,14 +115,15 @@ impl Partition {
     /// Joins neighbours, and what their other poses become on the way.
     fn join_neighbours(&self, sheet: &Sheet<'_>, sets: &mut UnionFind, control: &Control<'_>) {
         let joined = |node: usize| {
-            let next = (0..self.grid.axes()).filter_map(move |k| self.grid.next(node, k));
+            let next = (0..self.labels.grid.axes()).filter_map(move |k| self.labels.grid.next(node, k));
             let alike = next.filter(move |&next| !control.is_cancelled() && self.are_alike(node, next));
             alike.filter_map(move |next| Some((node, next, self.way(sheet, node, next, 0)?)))
         };
-        let pairs: Vec<_> = (0..self.grid.len()).into_par_iter().flat_map_iter(joined).collect();
+        let pairs: Vec<_> = (0..self.labels.grid.len()).into_par_iter().flat_map_iter(joined).collect();
         for (node, next, way) in pairs {
             sets.union(node as u32, next as u32);
-            let other = |node: usize, i: usize| (self.grid.len() + self.first[node] as usize + i) as u32;
+            let other =
+                |node: usize, i: usize| (self.labels.grid.len() + self.first[node] as usize + i) as u32;
             way.iter().enumerate().for_each(|(i, &j)| sets.union(other(node, i), other(next, j)));
         }
     }
@@ -136,15 +131,17 @@ impl Partition {
     /// Joins the sets in which the other poses lie that a walk through one set leads through: where that set is wide, theirs
     /// may be too narrow for the grid.
     fn join_others(&self, sets: &mut UnionFind) {
-        let nodes = self.grid.len();
+        let nodes = self.labels.grid.len();
         let any_node: BTreeMap<u32, usize> = (0..nodes)
-            .filter(|&node| self.region[node] != OUTSIDE)
-            .map(|node| (self.region[node], node))
+            .filter(|&node| self.labels.region[node] != OUTSIDE)
+            .map(|node| (self.labels.region[node], node))
             .collect();
         for node in 0..nodes {
             for (i, other) in self.others(node).iter().enumerate() {
-                let round =
-                    self.region_round(&other[..self.grid.axes()]).and_then(|region| any_node.get(&region));
+                let round = self
+                    .labels
+                    .region_round(&other[..self.labels.grid.axes()])
+                    .and_then(|region| any_node.get(&region));
                 if let Some(&at) = round.filter(|&&at| self.are_alike(node, at)) {
                     sets.union((nodes + self.first[node] as usize + i) as u32, at as u32);
                 }
@@ -159,33 +156,34 @@ impl Partition {
 
     /// Names the sets.
     fn label(&mut self, sets: &mut UnionFind) {
-        let inside: Vec<usize> = (0..self.grid.len()).filter(|&node| self.solutions[node] != 0).collect();
-        inside.iter().for_each(|&node| self.region[node] = sets.root(node as u32));
+        let inside: Vec<usize> =
+            (0..self.labels.grid.len()).filter(|&node| self.solutions[node] != 0).collect();
+        inside.iter().for_each(|&node| self.labels.region[node] = sets.root(node as u32));
         let mut size = BTreeMap::<u32, (bool, usize)>::new();
         for &node in &inside {
-            let entry = size.entry(self.region[node]).or_default();
-            entry.0 = entry.0 || self.is_inner(node);
+            let entry = size.entry(self.labels.region[node]).or_default();
+            entry.0 = entry.0 || self.labels.is_inner(node);
             entry.1 += 1;
         }
         let mut roots: Vec<_> =
             size.into_iter().map(|(root, (resolved, nodes))| (!resolved, usize::MAX - nodes, root)).collect();
         roots.sort_unstable();
         let label: BTreeMap<u32, u32> = roots.iter().zip(0..).map(|(set, k)| (set.2, k)).collect();
-        inside.iter().for_each(|&node| self.region[node] = label[&self.region[node]]);
+        inside.iter().for_each(|&node| self.labels.region[node] = label[&self.labels.region[node]]);
     }
 
     /// Joins sets that are too thin to be resolved with others of the same count, where a straight segment to a node at most two cells
     /// away stays in the aspect and keeps the count.
     fn join_slivers(&self, sheet: &Sheet<'_>, sets: &mut UnionFind, control: &Control<'_>) {
         let thin: Vec<bool> = self.regions().iter().map(|region| !region.is_resolved()).collect();
-        let nodes: Vec<usize> = (0..self.grid.len())
-            .filter(|&node| self.region[node] != OUTSIDE && thin[self.region[node] as usize])
+        let nodes: Vec<usize> = (0..self.labels.grid.len())
+            .filter(|&node| self.labels.region[node] != OUTSIDE && thin[self.labels.region[node] as usize])
             .collect();
         let near = |&node: &usize| {
             let mut joined: Vec<(usize, usize)> = Vec::new();
-            self.grid.within(node, 2, |other| {
-                let (a, b) = (self.region[node], self.region[other]);
-                let new = a != b && !joined.iter().any(|&(_, known)| self.region[known] == b);
+            self.labels.grid.within(node, 2, |other| {
+                let (a, b) = (self.labels.region[node], self.labels.region[other]);
+                let new = a != b && !joined.iter().any(|&(_, known)| self.labels.region[known] == b);
                 if new
                     && self.are_alike(node, other)
                     && !control.is_cancelled()
@@ -203,20 +201,20 @@ impl Partition {
     /// What the other poses of a node become along the segment to another, looked at in 2^`depth` parts at least; `None` if they do not
     /// move continuously.
     fn way(&self, sheet: &Sheet<'_>, from: usize, to: usize, depth: u32) -> Option<Match> {
-        let start = (self.grid.pose(from), self.others(from));
-        let end = (self.grid.turned_to(&self.grid.pose(from), to), self.others(to));
-        sheet.follow(&self.grid, start, end, depth)
+        let start = (self.labels.grid.pose(from), self.others(from));
+        let end = (self.labels.grid.turned_to(&self.labels.grid.pose(from), to), self.others(to));
+        sheet.follow(&self.labels.grid, start, end, depth)
     }
 
     /// The regions.
     pub fn regions(&self) -> Vec<Region> {
         let mut regions: Vec<Region> = Vec::new();
-        for (node, &region) in self.region.iter().enumerate().filter(|(_, r)| **r != OUTSIDE) {
+        for (node, &region) in self.labels.region.iter().enumerate().filter(|(_, r)| **r != OUTSIDE) {
             let region = region as usize;
             while regions.len() <= region {
                 regions.push(Region { nodes: 0, inner: 0, solutions: 0, sample: 0 });
             }
-            let inner = self.is_inner(node);
+            let inner = self.labels.is_inner(node);
             let entry = &mut regions[region];
             if entry.nodes == 0 || inner && entry.inner == 0 {
                 entry.sample = node;
@@ -227,71 +225,4 @@ impl Partition {
         }
         regions
     }
-
-    /// Whether the nodes round a node, diagonal ones too, are in its region.
-    pub(super) fn is_inner(&self, node: usize) -> bool {
-        let mut alike = 0;
-        self.grid.within(node, 1, |other| alike += usize::from(self.region[other] == self.region[node]));
-        alike + 1 == 3usize.pow(self.grid.axes() as u32)
-    }
-
-    /// The region that all nodes round a pose lie in, if it is one and the same (or none of them in the aspect).
-    pub fn region_round(&self, pose: &[f64]) -> Option<u32> {
-        let (mut found, mut same, mut corners) = (None, true, 0);
-        self.grid.around(pose, |node| {
-            corners += 1;
-            same &= *found.get_or_insert(self.region[node]) == self.region[node];
-        });
-        found.filter(|_| same && corners == 1 << self.grid.axes())
-    }
-
-    /// A region such as asked that a node next to a pose lies in.
-    pub(super) fn region_beside(&self, pose: &[f64], is_fit: impl Fn(&u32) -> bool) -> Option<u32> {
-        let mut found = None;
-        self.grid.around(pose, |node| found = Some(self.region[node]).filter(&is_fit).or(found));
-        found
-    }
-
-    /// The region of a pose of the aspect: that of a node at most two cells away to which a straight segment stays in the aspect with the
-    /// other poses moving continuously.
-    pub fn region_of(&self, sheet: &Sheet<'_>, pose: &[f64]) -> Option<u32> {
-        let others = sheet.all_others(pose)?;
-        let mut nearest = None;
-        self.grid.around(pose, |node| nearest = Some(node));
-        let mut nodes = vec![nearest?];
-        self.grid.within(nodes[0], 2, |node| nodes.push(node));
-        let from = padded(pose);
-        let ends = nodes.into_iter().filter(|&node| usize::from(self.solutions[node]) == others.len() + 1);
-        let mut ends: Vec<(f64, usize, [f64; 3])> = ends
-            .map(|node| {
-                let to = self.grid.turned_to(&from, node);
-                let gap = |k: usize| ((to[k] - from[k]) / self.grid.step[k]).powi(2);
-                ((0..self.grid.axes()).map(gap).sum(), node, to)
-            })
-            .collect();
-        ends.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        let is_open = |node: usize, to: [f64; 3]| {
-            sheet.follow(&self.grid, (from, &others), (to, self.others(node)), 3).is_some()
-        };
-        ends.into_iter().find(|&(_, node, to)| is_open(node, to)).map(|(_, node, _)| self.region[node])
-    }
-
-    /// Pairs of regions (the lesser first) with neighbouring nodes.
-    pub fn adjacent(&self) -> BTreeSet<(usize, usize)> {
-        let mut pairs = BTreeSet::new();
-        for node in 0..self.grid.len() {
-            for next in (0..self.grid.axes()).filter_map(|k| self.grid.next(node, k)) {
-                let (a, b) = (self.region[node], self.region[next]);
-                if a != b && a != OUTSIDE && b != OUTSIDE {
-                    pairs.insert((a.min(b) as usize, a.max(b) as usize));
-                }
-            }
-        }
-        pairs
-    }
-}
-
-/// A pose in three coordinates, those beyond the robot's 0.
-fn padded(pose: &[f64]) -> [f64; 3] {
-    std::array::from_fn(|k| pose.get(k).copied().unwrap_or(0.0))
 }

@@ -1,11 +1,11 @@
 //! The partition of an aspect as plain values.
 
-use super::partition::Partition;
+use super::labels::Labels;
 use super::sheet::Sheet;
 use crate::aspect::{Analysis, DetSign, Measure};
 use crate::kinematics::WorkingMode;
 use crate::robot::Platform;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// How finely an aspect is partitioned.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,7 +56,7 @@ pub enum DomainError {
 }
 
 /// The basic regions and uniqueness domains of one aspect. Numerical, true to a cell of the grid.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Domains {
     /// The aspect: [`crate::aspect::Aspect::id`].
     pub aspect: usize,
@@ -65,6 +65,7 @@ pub struct Domains {
     /// The sign of det A in it.
     pub det_a: DetSign,
     /// What all measures are of, and their unit.
+    #[serde(skip_deserializing)]
     pub unit: Measure,
     /// Width of a cell, per coordinate.
     pub cell: Vec<f64>,
@@ -90,14 +91,20 @@ pub struct Domains {
     pub failed: usize,
     /// The grid behind it.
     #[serde(skip)]
-    pub partition: Partition,
+    pub labels: Labels,
 }
 
 impl Domains {
     /// The number of the basic region that a pose lies in; `None` outside the aspect, and where the grid is too coarse to tell.
     pub fn region_at(&self, analysis: &Analysis, pose: &[f64]) -> Option<usize> {
-        let region = self.partition.region_of(&Sheet::new(analysis, self.aspect)?, pose)? as usize;
-        self.regions.get(region).map(|found| found.number)
+        self.region_on(&Sheet::new(analysis, self.aspect)?, pose)
+    }
+
+    /// The same, the aspect being given.
+    pub(super) fn region_on(&self, sheet: &Sheet<'_>, pose: &[f64]) -> Option<usize> {
+        let solutions = |region: u32| self.regions.get(region as usize).map(|found| found.solutions);
+        let region = self.labels.region_of(sheet, solutions, pose)?;
+        self.regions.get(region as usize).map(|found| found.number)
     }
 
     /// Whether the images of two basic regions (by number) meet: then their basic components coincide.
@@ -107,7 +114,7 @@ impl Domains {
 }
 
 /// WAb_ijk.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct BasicRegion {
     /// From 1.
     pub number: usize,
@@ -120,7 +127,7 @@ pub struct BasicRegion {
 }
 
 /// Parts of an aspect too thin for the grid: they may be basic regions or belong to one. A finer grid has less of them.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Unresolved {
     /// How many connected sets of nodes.
     pub parts: usize,
@@ -129,7 +136,7 @@ pub struct Unresolved {
 }
 
 /// Two regions with joint vectors in common.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Coincidence {
     /// Their numbers.
     pub regions: (usize, usize),
@@ -139,7 +146,7 @@ pub struct Coincidence {
 }
 
 /// Wu_ik.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct UniquenessDomain {
     /// Its regions.
     pub regions: Vec<usize>,
@@ -152,7 +159,7 @@ pub struct UniquenessDomain {
 }
 
 /// Two poses in one basic region with the same joint vector.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Violation {
     /// The region.
     pub region: usize,
@@ -163,7 +170,7 @@ pub struct Violation {
 }
 
 /// How often the partition and the direct model say the same.
-#[derive(Clone, Debug, Default, Serialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Agreement {
     /// Random poses of the aspect looked at.
     pub samples: usize,
@@ -176,7 +183,7 @@ pub struct Agreement {
 }
 
 /// A pose away from the surfaces at which partition and direct model do not agree.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Disagreement {
     /// The pose.
     pub pose: Vec<f64>,

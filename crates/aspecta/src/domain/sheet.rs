@@ -5,6 +5,7 @@ use super::grid::Grid;
 use crate::aspect::{Analysis, DetSign};
 use crate::kinematics::{WorkingMode, for_platform};
 use crate::num::without_turns;
+use crate::robot::{Robot, Window};
 use arrayvec::ArrayVec;
 
 /// Which pose of a second list each pose of a first one has become.
@@ -19,43 +20,55 @@ pub type Joints = [f64; 6];
 /// boundary that rounding blurs. Which aspect of the class it lies in is certified ([`Analysis::aspect_at`]), except that where the
 /// analysis found one aspect only, the whole class counts as it.
 pub struct Sheet<'a> {
-    analysis: &'a Analysis,
-    class: usize,
-    id: usize,
+    robot: &'a Robot,
+    window: &'a Window,
     mode: WorkingMode,
     sign: DetSign,
-    /// Whether no other aspect of the class was found.
-    alone: bool,
+    belongs: Option<Belongs<'a>>,
 }
+
+/// Whether a pose of a class lies in the aspect.
+pub(super) type Belongs<'a> = Box<dyn Fn(&[f64]) -> bool + Sync + 'a>;
 
 impl<'a> Sheet<'a> {
     /// The aspect with the given [`crate::aspect::Aspect::id`].
     pub fn new(analysis: &'a Analysis, id: usize) -> Option<Self> {
         let (class, _) = analysis.aspect(id)?;
-        let entry = &analysis.classes[class];
-        let (mode, sign) = (entry.mode, entry.det_a);
-        Some(Self { analysis, class, id, mode, sign, alone: entry.aspects.len() == 1 })
+        let Analysis { robot, window, classes, .. } = analysis;
+        let entry = &classes[class];
+        let alone = entry.aspects.len() == 1;
+        let belongs = (!alone)
+            .then(|| -> Belongs<'a> { Box::new(move |pose| analysis.aspect_at(class, pose) == Some(id)) });
+        Some(Self::of(robot, window, (entry.mode, entry.det_a), belongs))
+    }
+
+    /// The poses of a class that belong to an aspect, or all of them.
+    pub(super) fn of(
+        robot: &'a Robot,
+        window: &'a Window,
+        (mode, sign): (WorkingMode, DetSign),
+        belongs: Option<Belongs<'a>>,
+    ) -> Self {
+        Self { robot, window, mode, sign, belongs }
     }
 
     fn field<const D: usize, const N: usize>(&self, mode: WorkingMode) -> Field<'a, D, N> {
-        let Analysis { robot, window, .. } = self.analysis;
-        Field { robot, mode, sign: self.sign, window }
+        Field { robot: self.robot, mode, sign: self.sign, window: self.window }
     }
 
     /// g_i(X), if X lies in the aspect.
     pub fn joints(&self, pose: &[f64]) -> Option<Joints> {
-        let robot = &self.analysis.robot;
-        let window = &self.analysis.window;
+        let window = self.window;
         let within =
             pose.iter().enumerate().all(|(k, &x)| window.fraction(k, window.turned_in(k, x)).is_some());
-        let joints = within.then(|| for_platform!(robot.platform, in_class(self, pose)))??;
-        (self.alone || self.analysis.aspect_at(self.class, pose) == Some(self.id)).then_some(joints)
+        let joints = within.then(|| for_platform!(self.robot.platform, in_class(self, pose)))??;
+        self.belongs.as_ref().is_none_or(|belongs| belongs(pose)).then_some(joints)
     }
 
     /// Visits the other poses X′ of the aspect with g_i(X′) = q = g_i(X). False if the direct model fails: a joint vector with
     /// infinitely many poses, or poses of which none is X.
     pub fn others(&self, pose: &[f64], joints: &Joints, mut visit: impl FnMut(&[f64])) -> bool {
-        let robot = &self.analysis.robot;
+        let robot = self.robot;
         let Ok(poses) = robot.direct_poses(&joints[..robot.dof()]) else { return false };
         let gaps = poses.iter().map(|other| self.gap(pose, other)).enumerate();
         let Some((own, _)) = gaps.min_by(|a, b| a.1.total_cmp(&b.1)) else { return false };
@@ -127,8 +140,7 @@ impl<'a> Sheet<'a> {
     fn nearest(&self, grid: &Grid, from: &[[f64; 3]], to: &[[f64; 3]]) -> Option<Match> {
         let gap = |x: &[f64; 3], y: &[f64; 3]| {
             let part = |k: usize| {
-                let gap =
-                    if self.analysis.window.angles[k] { without_turns(x[k] - y[k]) } else { x[k] - y[k] };
+                let gap = if self.window.angles[k] { without_turns(x[k] - y[k]) } else { x[k] - y[k] };
                 gap.abs() / grid.step[k]
             };
             (0..grid.axes()).map(part).fold(0.0, f64::max)
@@ -146,7 +158,7 @@ impl<'a> Sheet<'a> {
 
     /// The greatest difference of two poses, coordinate by coordinate in parts of the window.
     fn gap(&self, a: &[f64], b: &[f64]) -> f64 {
-        let window = &self.analysis.window;
+        let window = self.window;
         let part = |k: usize| {
             let gap = if window.angles[k] { without_turns(a[k] - b[k]) } else { a[k] - b[k] };
             gap.abs() / (window.ranges[k].1 - window.ranges[k].0)
@@ -157,7 +169,7 @@ impl<'a> Sheet<'a> {
     /// Whether the joint vector `found` of a pose in this mode is the one asked for, leg by leg nearer to it than that of the
     /// other posture.
     fn is_posture(&self, pose: &[f64], found: &Joints, asked: &Joints) -> bool {
-        let robot = &self.analysis.robot;
+        let robot = self.robot;
         let turned_over = for_platform!(robot.platform, turned_over(self, pose));
         robot.legs.iter().enumerate().filter(|(_, leg)| leg.actuator.postures() == 2).all(|(j, leg)| {
             let gap = |q: f64| {

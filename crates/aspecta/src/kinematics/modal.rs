@@ -164,7 +164,7 @@ pub fn constraints<T: Scalar, const D: usize, const N: usize>(
 }
 
 /// One of the functions that bound an aspect.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Constraint {
     /// H_j of leg j (from 0): serial singularity.
     Reach(usize),

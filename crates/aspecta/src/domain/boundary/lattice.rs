@@ -24,7 +24,7 @@ pub enum Tag {
 }
 
 /// The grid.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Lattice {
     /// The coordinates that vary.
     pub axes: Vec<usize>,

@@ -1,0 +1,133 @@
+//! `aspecta locate`: in which aspect, basic region and uniqueness domains a configuration lies.
+
+use super::mapping::{Making, Source};
+use super::places;
+use super::queries::{Query, out_of_reach, queries};
+use super::solutions::Found;
+use super::watch;
+use crate::failure::{Answer, Failure};
+use crate::input::{self, Columns};
+use crate::output::{FormatArgs, note};
+use aspecta::aspect::Analysis;
+use aspecta::kinematics::DirectSolutions;
+use aspecta::robot::Robot;
+use clap::Args;
+use std::collections::BTreeSet;
+use std::io::Write;
+
+/// Arguments of `locate`.
+#[derive(Args)]
+pub struct Locate {
+    /// A file written by `aspecta domains --save`; or the name from `aspecta robots` or the robot file of a robot, whose
+    /// aspects are then found and cut into regions first
+    robot: String,
+    #[command(flatten)]
+    input: Input,
+    /// The rows of --file are joint vectors, not poses
+    #[arg(long, requires = "file")]
+    joints: bool,
+    /// Only in this working mode, such as `+-`
+    #[arg(long, allow_hyphen_values = true)]
+    mode: Option<String>,
+    #[command(flatten)]
+    making: Making,
+    /// Angles of the input and of the table are in degrees
+    #[arg(long)]
+    deg: bool,
+    /// Number of threads [default: all cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+    #[command(flatten)]
+    format: FormatArgs,
+}
+
+#[derive(Args)]
+#[group(required = true, multiple = false)]
+struct Input {
+    /// A pose: x,y | x,y,phi | x,y,z. It is looked for in every working mode
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
+    pose: Option<String>,
+    /// A joint vector, one number per leg. All its direct solutions are looked for
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
+    q: Option<String>,
+    /// A CSV file of poses (with --joints of joint vectors), one a line; `-` reads stdin
+    #[arg(long, value_name = "CSV")]
+    file: Option<String>,
+}
+
+impl Locate {
+    pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
+        let source = Source::new(&self.robot)?;
+        let found = self.configurations(source.robot())?;
+        let computed = matches!(source, Source::Robot(_));
+        let (map, _) = watch::watched(self.threads, |control| {
+            source.map(&self.making, false, control, |analysis| Ok(concerned(analysis, &found)))
+        })??;
+        if computed {
+            let (robot, name) = (&self.robot, &map.robot.name);
+            note(&format!(
+                "computed for this once; `aspecta domains {robot} --save {name}.aspecta` keeps it, and `aspecta locate {name}.aspecta` \
+                 answers at once"
+            ));
+        }
+        let known = places::print(out, &map, &found, self.format.format(), self.deg)?;
+        Ok(Answer::from(known && found.iter().all(|f| !f.solutions.is_empty())))
+    }
+
+    /// The inverse solutions of the poses, or the direct ones of the joint vectors, in the working mode if there is one.
+    fn configurations(&self, robot: &Robot) -> Result<Vec<Found>, Failure> {
+        let mode = self.mode.as_deref().map(|m| input::mode(robot, m)).transpose()?;
+        let Input { pose, q, file } = &self.input;
+        let joints = self.joints || q.is_some();
+        let (option, layout, value) =
+            if joints { ("--q", Columns::joints(robot), q) } else { ("--pose", Columns::pose(robot), pose) };
+        let asked = queries(option, value.as_deref(), file.as_deref(), &[layout], self.deg)?;
+        let solve = if joints { direct } else { inverse };
+        let mut found =
+            asked.into_iter().map(|query| solve(robot, query)).collect::<Result<Vec<_>, Failure>>()?;
+        for found in &mut found {
+            found.solutions.retain(|s| mode.is_none_or(|m| s.mode == m));
+        }
+        Ok(found)
+    }
+}
+
+fn inverse(robot: &Robot, query: Query) -> Result<Found, Failure> {
+    let solutions = robot.inverse(&query.values)?;
+    if solutions.is_empty() {
+        let why = out_of_reach(robot, &query.values)?;
+        match query.line {
+            None => return Err(Failure::Input(format!("the pose is {why}"))),
+            Some(line) => note(&format!("line {line}: {why}")),
+        }
+    }
+    Ok(Found { query, solutions, complete: None })
+}
+
+fn direct(robot: &Robot, query: Query) -> Result<Found, Failure> {
+    let DirectSolutions { solutions, complete } = match (robot.direct_certified(&query.values), query.line) {
+        (Ok(found), _) => found,
+        (Err(e), None) => return Err(e.into()),
+        (Err(e), Some(line)) => {
+            note(&format!("line {line}: {e}"));
+            DirectSolutions { solutions: Vec::new(), complete: false }
+        }
+    };
+    Ok(Found { query, solutions, complete: Some(complete) })
+}
+
+/// The aspects in which these configurations lie, or may.
+fn concerned(analysis: &Analysis, found: &[Found]) -> Vec<usize> {
+    let mut ids = BTreeSet::new();
+    for s in found.iter().flat_map(|f| &f.solutions) {
+        let classes = analysis.classes.iter().enumerate();
+        let class = classes.filter(|(_, c)| c.mode == s.mode && f64::from(c.det_a.factor()) * s.det_a > 0.0);
+        for (k, class) in class {
+            match analysis.aspect_at(k, &s.pose) {
+                Some(id) => drop(ids.insert(id)),
+                None => ids.extend(class.aspects.iter().map(|aspect| aspect.id)),
+            }
+        }
+    }
+    ids.into_iter().collect()
+}

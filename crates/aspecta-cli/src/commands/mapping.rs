@@ -1,0 +1,134 @@
+//! Where the map of a robot's aspects comes from: a file, or an analysis.
+
+use super::budget;
+use crate::failure::Failure;
+use crate::input;
+use aspecta::aspect::{Analysis, DetSign, Options, analyze};
+use aspecta::domain::boundary::Boundary;
+use aspecta::domain::characteristic::Characteristic;
+use aspecta::domain::{DomainError, DomainOptions, Map, MappedAspect, Surfaces, domains};
+use aspecta::kinematics::WorkingMode;
+use aspecta::paving::{Budget, Control, Stop};
+use aspecta::robot::Robot;
+use clap::Args;
+use std::fs::File;
+use std::io::Read;
+
+/// How a map is computed.
+#[derive(Args)]
+pub struct Making {
+    /// How fine: cells are 1/N of the workspace's width in each coordinate [default: 500 for 2 coordinates, 100 for 3]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(2..=2000))]
+    cells: Option<u16>,
+    /// When to stop telling the aspects apart, as for `analyze` [default: depth=11 for 2 coordinates, depth=7 for 3]
+    #[arg(long, value_parser = budget::parse, allow_hyphen_values = true)]
+    budget: Option<Budget>,
+}
+
+/// What a command is told by its first argument.
+pub enum Source {
+    /// A robot, whose map is to be computed.
+    Robot(Robot),
+    /// A map that `aspecta domains --save` wrote.
+    Map(Box<Map>),
+}
+
+/// Which aspects are wanted.
+#[derive(Clone, Copy, Default)]
+pub struct Wanted {
+    /// Those of this mode.
+    pub mode: Option<WorkingMode>,
+    /// Those with this sign of det A.
+    pub det_a: Option<DetSign>,
+    /// The one with this number.
+    pub aspect: Option<usize>,
+}
+
+impl Wanted {
+    /// Whether an aspect is.
+    pub fn is(&self, mode: WorkingMode, det_a: DetSign, aspect: usize) -> bool {
+        self.mode.is_none_or(|wanted| wanted == mode)
+            && self.det_a.is_none_or(|wanted| wanted == det_a)
+            && self.aspect.is_none_or(|wanted| wanted == aspect)
+    }
+}
+
+impl Source {
+    /// Reads the map, or resolves the name of the robot.
+    pub fn new(name_or_path: &str) -> Result<Self, Failure> {
+        let mut mark = [0; 2];
+        let is_map = File::open(name_or_path).and_then(|mut file| file.read_exact(&mut mark)).is_ok()
+            && Map::is_map(&mark);
+        if !is_map {
+            return Ok(Self::Robot(input::robot(name_or_path)?));
+        }
+        let refused = |why: String| Failure::Input(format!("`{name_or_path}`: {why}"));
+        let file = std::fs::read(name_or_path).map_err(|e| refused(e.to_string()))?;
+        Ok(Self::Map(Box::new(Map::from_bytes(&file).map_err(|e| refused(e.to_string()))?)))
+    }
+
+    /// The robot.
+    pub fn robot(&self) -> &Robot {
+        match self {
+            Self::Robot(robot) => robot,
+            Self::Map(map) => &map.robot,
+        }
+    }
+
+    /// The map: that of the file, or computed now, of those aspects that `wanted` picks from the analysis.
+    pub fn map(
+        self,
+        making: &Making,
+        surfaces: bool,
+        control: &Control<'_>,
+        wanted: impl Fn(&Analysis) -> Result<Vec<usize>, Failure>,
+    ) -> Result<(Map, Option<Stop>), Failure> {
+        match self {
+            Self::Robot(robot) => making.map(&robot, surfaces, control, wanted),
+            Self::Map(_) if making.cells.is_some() || making.budget.is_some() => Err(Failure::Input(
+                "--cells and --budget are for robots: the map in this file is as fine as it was computed"
+                    .into(),
+            )),
+            Self::Map(map) => Ok((*map, None)),
+        }
+    }
+}
+
+impl Making {
+    fn map(
+        &self,
+        robot: &Robot,
+        with_surfaces: bool,
+        control: &Control<'_>,
+        wanted: impl Fn(&Analysis) -> Result<Vec<usize>, Failure>,
+    ) -> Result<(Map, Option<Stop>), Failure> {
+        let in_plane = robot.dof() == 2;
+        let coarse = Budget { depth: Some(if in_plane { 11 } else { 7 }), ..Budget::default() };
+        let options = Options { budget: self.budget.unwrap_or(coarse), ..Options::default() };
+        let usual = DomainOptions::default();
+        let cells = self.cells.map_or(if in_plane { 5 * usual.cells } else { usual.cells }, usize::from);
+        let analysis = analyze(robot, &options, control)?;
+        let sheet = |id: usize| {
+            let domains = domains(&analysis, id, DomainOptions { cells, ..usual }, control)?;
+            let surfaces = with_surfaces.then(|| surfaces(&analysis, id, cells)).transpose()?;
+            Ok::<_, Failure>(MappedAspect { domains, surfaces })
+        };
+        let sheets = wanted(&analysis)?.into_iter().map(sheet).collect::<Result<Vec<_>, Failure>>()?;
+        Ok((Map::new(&analysis, sheets), Some(analysis.run.stop)))
+    }
+}
+
+/// The boundary of an aspect and its characteristic surface, about as fine as the regions: within what [`Boundary::new`] takes.
+fn surfaces(analysis: &Analysis, id: usize, cells: usize) -> Result<Surfaces, Failure> {
+    let cells = cells.clamp(4, if analysis.robot.dof() == 2 { 2000 } else { 300 });
+    let boundary = Boundary::new(analysis, id, cells).map_err(|e| Failure::Input(e.to_string()))?;
+    let characteristic =
+        Characteristic::new(analysis, &boundary).map_err(|e| Failure::Input(e.to_string()))?;
+    Ok(Surfaces { boundary, characteristic })
+}
+
+impl From<DomainError> for Failure {
+    fn from(error: DomainError) -> Self {
+        Self::Input(error.to_string())
+    }
+}

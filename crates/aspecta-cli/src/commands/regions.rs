@@ -1,0 +1,137 @@
+//! The tables of `aspecta domains`.
+
+use super::queries::Labels;
+use crate::failure::Failure;
+use crate::output::{Align, Table, brief};
+use aspecta::domain::Domains;
+use aspecta::robot::Robot;
+use std::io::Write;
+
+/// Prints regions, uniqueness domains and what was checked of them.
+pub fn print(out: &mut dyn Write, robot: &Robot, found: &Domains) -> Result<(), Failure> {
+    let Domains { aspect, mode, det_a, unit, .. } = found;
+    writeln!(
+        out,
+        "aspect {aspect} (mode {mode}, det A {det_a}): {} {} {}, numerical, in cells of {}",
+        unit.name,
+        brief(found.measure),
+        unit.unit,
+        found.cell.iter().map(|w| brief(*w)).collect::<Vec<_>>().join(" x ")
+    )?;
+    regions(out, robot, found)?;
+    uniqueness(out, found)?;
+    checks(out, robot, found)?;
+    Ok(writeln!(out)?)
+}
+
+fn right(name: &str) -> (String, Align) {
+    (name.to_owned(), Align::Right)
+}
+
+fn percent(share: f64) -> String {
+    format!("{:.1} %", 100.0 * share)
+}
+
+fn regions(out: &mut dyn Write, robot: &Robot, found: &Domains) -> Result<(), Failure> {
+    let (pose, unit) = (Labels::pose(robot, false), &found.unit);
+    writeln!(out, "\nBasic regions (Def. 10)")?;
+    let vector = pose.headings().map(|name| (name, Align::Right));
+    let names = [right("region"), right(unit.name), right("solutions")];
+    let mut table =
+        Table::new(names.into_iter().chain(vector).chain([("image meets that of".into(), Align::Left)]));
+    for region in found.regions.iter().take(LISTED) {
+        let first = [region.number.to_string(), brief(region.measure), region.solutions.to_string()];
+        let meets = found.coincidences.iter().filter_map(|c| match c.regions {
+            (a, b) if a == region.number => Some(b.to_string()),
+            (a, b) if b == region.number => Some(a.to_string()),
+            _ => None,
+        });
+        let meets = meets.take(8).collect::<Vec<_>>().join(" ");
+        table.row(first.into_iter().chain(region.pose.iter().map(|x| brief(*x))).chain([meets]));
+    }
+    write!(out, "{table}")?;
+    more(out, found.regions.len())?;
+    if found.unresolved.parts > 0 {
+        let (parts, share) = (found.unresolved.parts, 100.0 * found.unresolved.measure / found.measure);
+        writeln!(
+            out,
+            "  not resolved: {parts} parts thinner than two cells, {share:.3} % of the {}; --cells makes them fewer",
+            unit.name
+        )?;
+    }
+    Ok(())
+}
+
+fn uniqueness(out: &mut dyn Write, found: &Domains) -> Result<(), Failure> {
+    writeln!(out, "\nUniqueness domains (Theorem 3)")?;
+    let names = [
+        right(found.unit.name),
+        right("of the aspect"),
+        right("of the workspace"),
+        ("regions".into(), Align::Left),
+    ];
+    let mut table = Table::new(names);
+    for domain in found.uniqueness.iter().take(LISTED) {
+        let of_workspace = domain.of_workspace.map_or(String::new(), percent);
+        let listed = domain.regions.iter().take(12).map(usize::to_string).collect::<Vec<_>>().join(" ");
+        let dots = if domain.regions.len() > 12 { " …" } else { "" };
+        table.row([
+            brief(domain.measure),
+            percent(domain.of_aspect),
+            of_workspace,
+            format!("{listed}{dots}"),
+        ]);
+    }
+    write!(out, "{table}")?;
+    more(out, found.uniqueness.len())?;
+    if !found.complete {
+        writeln!(out, "  there may be more: the search for sets of regions was cut short")?;
+    }
+    Ok(())
+}
+
+/// What was checked, and where it does not hold.
+fn checks(out: &mut dyn Write, robot: &Robot, found: &Domains) -> Result<(), Failure> {
+    let (pose, agreement) = (Labels::pose(robot, false), &found.agreement);
+    writeln!(
+        out,
+        "\nchecked: {} of {} random poses away from the surfaces have as many direct solutions as their region",
+        agreement.agree, agreement.away
+    )?;
+    for c in found.coincidences.iter().filter(|c| c.shares.0.min(c.shares.1) < WHOLE).take(LISTED) {
+        let ((a, b), (in_b, in_a)) = (c.regions, c.shares);
+        writeln!(
+            out,
+            "images of regions {a} and {b} meet in part ({}, {}): more --cells would tell regions apart or show them whole",
+            percent(in_b),
+            percent(in_a)
+        )?;
+    }
+    for violation in found.violations.iter().take(LISTED) {
+        let [a, b] = &violation.poses;
+        writeln!(
+            out,
+            "Theorem 2 does not hold on region {}: {} and {} have the same joint vector",
+            violation.region,
+            pose.brief(a),
+            pose.brief(b)
+        )?;
+    }
+    if found.failed > 0 {
+        writeln!(out, "at {} nodes the direct model failed: counted as one solution", found.failed)?;
+    }
+    Ok(())
+}
+
+/// Images that coincide to this share are said to coincide: the rest is as much as a grid errs near surfaces.
+const WHOLE: f64 = 0.95;
+
+/// Rows shown; the rest is in the JSON.
+const LISTED: usize = 20;
+
+fn more(out: &mut dyn Write, rows: usize) -> Result<(), Failure> {
+    if rows > LISTED {
+        writeln!(out, "  … and {} more (--json lists all)", rows - LISTED)?;
+    }
+    Ok(())
+}

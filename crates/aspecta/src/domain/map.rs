@@ -1,0 +1,228 @@
+//! A robot's map: what sections 3 and 4 of the paper have found about it, ready to be asked.
+//!
+//! A configuration (X, working mode) is looked up in three steps. Its class is a matter of signs, in doubles. Its aspect is that of a
+//! node of the grid next to it, to which [`along`] proves that the segment stays in the class (certified, as far as the node's own
+//! aspect is: [`Sheet`]); where a class has one aspect, it is that. Its basic region is that of the nodes round it if they agree, else that of a
+//! node to which the other poses with its joint vector can be followed: numerical, true to a cell of the grid.
+
+mod file;
+
+pub use file::{MAP_VERSION, MapError};
+
+use super::boundary::{Boundary, Face};
+use super::characteristic::Characteristic;
+use super::field::Field;
+use super::labels::OUTSIDE;
+use super::result::Domains;
+use super::sheet::{Belongs, Sheet};
+use crate::aspect::{Analysis, Count, DetSign, Measure};
+use crate::kinematics::modal::Constraint;
+use crate::kinematics::segment::{Along, along};
+use crate::kinematics::{KinematicsError, WorkingMode, for_platform};
+use crate::robot::{Robot, Window};
+use serde::{Deserialize, Serialize};
+
+/// Interval evaluations spent on a segment from a pose to a node.
+const EFFORT: usize = 64;
+
+/// The aspects of a robot, and of some of them the basic regions and uniqueness domains.
+#[derive(Clone, Debug)]
+pub struct Map {
+    /// The robot.
+    pub robot: Robot,
+    /// The box that holds its workspace.
+    pub window: Window,
+    /// What measures are of.
+    pub unit: Measure,
+    /// Certified bounds on the number of its aspects.
+    pub aspects: Count,
+    /// Its classes of aspects, in the order of [`Analysis::classes`].
+    pub classes: Vec<MappedClass>,
+    /// The aspects that are cut into regions.
+    pub sheets: Vec<MappedAspect>,
+}
+
+/// A working mode and a sign of det A.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MappedClass {
+    /// The mode.
+    pub mode: WorkingMode,
+    /// The sign.
+    pub det_a: DetSign,
+    /// The [`crate::aspect::Aspect::id`] of the aspects found in it.
+    pub aspects: Vec<usize>,
+}
+
+/// An aspect cut into regions.
+#[derive(Clone, Debug)]
+pub struct MappedAspect {
+    /// Its regions.
+    pub domains: Domains,
+    /// What pictures need besides, if it was computed.
+    pub surfaces: Option<Surfaces>,
+}
+
+/// The meshes of an aspect.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Surfaces {
+    /// Its boundary.
+    pub boundary: Boundary,
+    /// Its characteristic surfaces.
+    pub characteristic: Characteristic,
+}
+
+/// Where a pose is, in a working mode.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Location {
+    /// The working mode.
+    pub mode: WorkingMode,
+    /// The sign of det A.
+    pub det_a: DetSign,
+    /// The [`crate::aspect::Aspect::id`]; `None` where neither the class nor a proved segment to a mapped aspect tells.
+    pub aspect: Option<usize>,
+    /// The number of the basic region; `None` if the aspect is not mapped, or too thin here for the grid.
+    pub region: Option<usize>,
+}
+
+/// Why a pose is in no aspect.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Nowhere {
+    /// No pose of this robot.
+    #[error(transparent)]
+    Pose(#[from] KinematicsError),
+    /// Outside the window that the robot file sets.
+    #[error("outside the [window] of the robot file")]
+    Window,
+    /// A leg does not reach it, or just so: at a serial singularity.
+    #[error("leg {0} does not reach")]
+    OutOfReach(usize),
+    /// A joint limit.
+    #[error("limit {limit} of leg {leg}")]
+    Limit {
+        /// The leg, from 1.
+        leg: usize,
+        /// Its limit, from 1.
+        limit: usize,
+    },
+    /// det A = 0, to rounding.
+    #[error("parallel singularity")]
+    Singular,
+}
+
+impl Map {
+    /// The map of an analysed robot, with the aspects that were cut up.
+    pub fn new(analysis: &Analysis, sheets: Vec<MappedAspect>) -> Self {
+        let class = |class: &crate::aspect::AspectClass| MappedClass {
+            mode: class.mode,
+            det_a: class.det_a,
+            aspects: class.aspects.iter().map(|aspect| aspect.id).collect(),
+        };
+        Self {
+            robot: analysis.robot.clone(),
+            window: analysis.window.clone(),
+            unit: analysis.measure.clone(),
+            aspects: analysis.aspects,
+            classes: analysis.classes.iter().map(class).collect(),
+            sheets,
+        }
+    }
+
+    /// The regions and domains of the aspect with this [`crate::aspect::Aspect::id`], if it was cut up.
+    pub fn domains(&self, aspect: usize) -> Option<&Domains> {
+        self.sheets.iter().map(|sheet| &sheet.domains).find(|domains| domains.aspect == aspect)
+    }
+
+    /// Where `pose` is, taken in the working mode `mode` of the robot; angles count modulo 2π.
+    ///
+    /// # Errors
+    /// [`Nowhere`] if it is in no aspect.
+    pub fn locate(&self, pose: &[f64], mode: WorkingMode) -> Result<Location, Nowhere> {
+        self.robot.check_pose(pose)?;
+        let det_a = for_platform!(self.robot.platform, sign_at(self, pose, mode))?;
+        let mut location = Location { mode, det_a, aspect: None, region: None };
+        let Some(class) = self.classes.iter().find(|c| c.mode == mode && c.det_a == det_a) else {
+            return Ok(location);
+        };
+        let known = self.sheets_of(class).find_map(|d| Some((d, self.region_round(class, d, pose)?)));
+        if let Some((domains, region)) = known {
+            (location.aspect, location.region) = (Some(domains.aspect), Some(region));
+            return Ok(location);
+        }
+        location.aspect = self.aspect_of(class, pose);
+        let domains = location.aspect.and_then(|aspect| self.domains(aspect));
+        location.region =
+            domains.and_then(|domains| domains.region_on(&self.sheet(class, domains.aspect), pose));
+        Ok(location)
+    }
+
+    /// The numbers, from 1, of the uniqueness domains of an aspect that hold a region: their places in [`Domains::uniqueness`].
+    pub fn uniqueness(&self, aspect: usize, region: usize) -> impl Iterator<Item = usize> {
+        let all = self.domains(aspect).map_or(&[][..], |domains| &domains.uniqueness);
+        (1..).zip(all).filter(move |(_, domain)| domain.regions.contains(&region)).map(|(number, _)| number)
+    }
+
+    fn sheets_of(&self, class: &MappedClass) -> impl Iterator<Item = &Domains> {
+        let key = (class.mode, class.det_a);
+        self.sheets.iter().map(|sheet| &sheet.domains).filter(move |d| (d.mode, d.det_a) == key)
+    }
+
+    /// The number of the region all round a pose of a class, if the pose is proved to lie in its aspect.
+    fn region_round(&self, class: &MappedClass, domains: &Domains, pose: &[f64]) -> Option<usize> {
+        let region = domains.labels.region_round(pose).filter(|region| *region != OUTSIDE)?;
+        let number = domains.regions.get(region as usize)?.number;
+        if class.aspects.len() == 1 {
+            return Some(number);
+        }
+        let grid = &domains.labels.grid;
+        let mut corner = None;
+        grid.around(pose, |node| corner = Some(node));
+        self.is_joined(class, pose, &grid.turned_to(&super::labels::padded(pose), corner?)).then_some(number)
+    }
+
+    /// The aspect of a pose of a class.
+    fn aspect_of(&self, class: &MappedClass, pose: &[f64]) -> Option<usize> {
+        if let [only] = class.aspects[..] {
+            return Some(only);
+        }
+        let joined = |domains: &&Domains| {
+            domains.labels.nearest(pose).iter().any(|(_, node)| self.is_joined(class, pose, node))
+        };
+        self.sheets_of(class).find(joined).map(|domains| domains.aspect)
+    }
+
+    /// Whether the segment between two poses is proved to stay in a class.
+    fn is_joined(&self, class: &MappedClass, pose: &[f64], node: &[f64; 3]) -> bool {
+        let sign = class.det_a.factor();
+        along(&self.robot, class.mode, sign, pose, &node[..pose.len()], EFFORT) == Along::Inside
+    }
+
+    fn sheet<'a>(&'a self, class: &'a MappedClass, aspect: usize) -> Sheet<'a> {
+        let belongs = (class.aspects.len() > 1)
+            .then(|| -> Belongs<'a> { Box::new(move |pose| self.aspect_of(class, pose) == Some(aspect)) });
+        Sheet::of(&self.robot, &self.window, (class.mode, class.det_a), belongs)
+    }
+}
+
+/// The sign of det A at a pose that is strictly within everything else.
+fn sign_at<const D: usize, const N: usize>(
+    map: &Map,
+    pose: &[f64],
+    mode: WorkingMode,
+) -> Result<DetSign, Nowhere> {
+    let x: [f64; N] = std::array::from_fn(|k| pose[k]);
+    for sign in [DetSign::Positive, DetSign::Negative] {
+        let field = Field::<D, N> { robot: &map.robot, mode, sign, window: &map.window };
+        match field.violated(&x, &[]) {
+            None => return Ok(sign),
+            Some(Face::Of(Constraint::Det)) => {}
+            Some(Face::Of(Constraint::Reach(leg))) => return Err(Nowhere::OutOfReach(leg + 1)),
+            Some(Face::Of(Constraint::Limit(leg, limit))) => {
+                return Err(Nowhere::Limit { leg: leg + 1, limit: limit + 1 });
+            }
+            Some(Face::Cut { .. }) => return Err(Nowhere::Window),
+        }
+    }
+    Err(Nowhere::Singular)
+}

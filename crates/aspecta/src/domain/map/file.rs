@@ -1,0 +1,230 @@
+//! The file of a map: gzip-compressed JSON (docs/map-file.md).
+
+use super::{Map, MappedAspect, MappedClass, Surfaces};
+use crate::aspect::{Count, Measure};
+use crate::certificate::{Unsound, check_robot};
+use crate::domain::boundary::Simplex;
+use crate::domain::grid::Grid;
+use crate::domain::labels::{Labels, OUTSIDE};
+use crate::domain::result::Domains;
+use crate::kinematics::WorkingMode;
+use crate::robot::{Robot, SliceError};
+use flate2::Compression;
+use flate2::read::GzDecoder;
+use flate2::write::GzEncoder;
+use serde::{Deserialize, Serialize};
+use std::io::{self, Read, Write};
+
+/// Version of the file format; raised when a field changes its meaning or goes away.
+pub const MAP_VERSION: u32 = 1;
+
+/// What a file begins with: the mark of gzip.
+const MAGIC: [u8; 2] = [0x1f, 0x8b];
+
+/// The most bytes that are unpacked.
+const LARGEST: u64 = 1 << 32;
+
+/// Why a file is no map.
+#[derive(Debug, thiserror::Error)]
+pub enum MapError {
+    /// Not compressed, or damaged.
+    #[error("damaged, or not written by `aspecta domains --save`: {0}")]
+    Damaged(#[from] io::Error),
+    /// It is not the JSON of a map; the message says where.
+    #[error("not a map of a robot's aspects: {0}")]
+    Form(#[from] serde_json::Error),
+    /// Another version of the format.
+    #[error(
+        "the map has version {found}, this program reads version {MAP_VERSION}: make it again with `aspecta domains --save`"
+    )]
+    Version {
+        /// The version.
+        found: u32,
+    },
+    /// The parts do not fit together.
+    #[error("the map makes no sense: {0}")]
+    Unsound(#[from] Unsound),
+    /// The robot's workspace has no window.
+    #[error(transparent)]
+    Window(#[from] SliceError),
+}
+
+/// What every version begins with.
+#[derive(Deserialize)]
+struct Head {
+    map_version: u32,
+}
+
+#[derive(Serialize)]
+struct FileOut<'a> {
+    map_version: u32,
+    robot: &'a Robot,
+    aspects: Count,
+    classes: &'a [MappedClass],
+    sheets: Vec<SheetOut<'a>>,
+}
+
+#[derive(Serialize)]
+struct SheetOut<'a> {
+    domains: &'a Domains,
+    grid: &'a Grid,
+    runs: Vec<(i64, usize)>,
+    surfaces: Option<&'a Surfaces>,
+}
+
+impl<'a> From<&'a MappedAspect> for SheetOut<'a> {
+    fn from(MappedAspect { domains, surfaces }: &'a MappedAspect) -> Self {
+        let Labels { grid, region } = &domains.labels;
+        SheetOut { domains, grid, runs: runs(region), surfaces: surfaces.as_ref() }
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FileIn {
+    #[serde(rename = "map_version")]
+    _version: u32,
+    robot: Robot,
+    aspects: Count,
+    classes: Vec<MappedClass>,
+    sheets: Vec<SheetIn>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SheetIn {
+    domains: Domains,
+    grid: Grid,
+    runs: Vec<(i64, usize)>,
+    surfaces: Option<Surfaces>,
+}
+
+impl Map {
+    /// Whether a file that begins with these bytes may be a map.
+    pub fn is_map(beginning: &[u8]) -> bool {
+        beginning.starts_with(&MAGIC)
+    }
+
+    /// The file of this map.
+    ///
+    /// # Errors
+    /// None in practice: memory is written to.
+    pub fn to_bytes(&self) -> Result<Vec<u8>, MapError> {
+        let file = FileOut {
+            map_version: MAP_VERSION,
+            robot: &self.robot,
+            aspects: self.aspects,
+            classes: &self.classes,
+            sheets: self.sheets.iter().map(SheetOut::from).collect(),
+        };
+        let mut packed = GzEncoder::new(Vec::new(), Compression::default());
+        serde_json::to_writer(&mut packed, &file)?;
+        packed.write_all(b"\n")?;
+        Ok(packed.finish()?)
+    }
+
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// [`MapError`] if it is damaged, of another kind or version, or its parts do not fit together.
+    pub fn from_bytes(file: &[u8]) -> Result<Self, MapError> {
+        let mut text = Vec::new();
+        // Reading to the end checks length and check sum.
+        GzDecoder::new(file).take(LARGEST).read_to_end(&mut text)?;
+        let Head { map_version: found } = serde_json::from_slice(&text)?;
+        if found != MAP_VERSION {
+            return Err(MapError::Version { found });
+        }
+        let file: FileIn = serde_json::from_slice(&text)?;
+        check_robot(&file.robot)?;
+        let window = file.robot.slice(&[])?;
+        let unit = Measure::over(&file.robot, &window);
+        let modes = file.robot.working_modes();
+        file.classes.iter().try_for_each(|class| class.check(&modes))?;
+        let sheet = |sheet: SheetIn| {
+            let labels = Labels { region: region(&sheet.grid, &sheet.runs)?, grid: sheet.grid };
+            let domains = Domains { unit: unit.clone(), labels, ..sheet.domains };
+            let sheet = MappedAspect { domains, surfaces: sheet.surfaces };
+            sheet.check(&file.classes, file.robot.dof())?;
+            Ok(sheet)
+        };
+        let sheets = file.sheets.into_iter().map(sheet).collect::<Result<Vec<_>, Unsound>>()?;
+        Ok(Self { robot: file.robot, window, unit, aspects: file.aspects, classes: file.classes, sheets })
+    }
+}
+
+/// Equal neighbours once, with their number; −1 is outside.
+fn runs(region: &[u32]) -> Vec<(i64, usize)> {
+    let name = |region: u32| if region == OUTSIDE { -1 } else { i64::from(region) };
+    region.chunk_by(|a, b| a == b).map(|run| (name(run[0]), run.len())).collect()
+}
+
+fn region(grid: &Grid, runs: &[(i64, usize)]) -> Result<Vec<u32>, Unsound> {
+    let wanted = grid.len();
+    let found = runs.iter().fold(0usize, |sum, run| sum.saturating_add(run.1));
+    if found != wanted {
+        return Err(Unsound::Count { what: "nodes of a grid", found, wanted });
+    }
+    let mut region = Vec::with_capacity(wanted);
+    for &(name, count) in runs {
+        let name = if name == -1 {
+            OUTSIDE
+        } else {
+            u32::try_from(name).map_err(|_| Unsound::Value("a region below 0"))?
+        };
+        region.resize(region.len() + count, name);
+    }
+    Ok(region)
+}
+
+fn holds(fact: bool, complaint: &'static str) -> Result<(), Unsound> {
+    if fact { Ok(()) } else { Err(Unsound::Value(complaint)) }
+}
+
+impl MappedClass {
+    fn check(&self, modes: &[WorkingMode]) -> Result<(), Unsound> {
+        holds(modes.contains(&self.mode), "a class has a working mode that the robot has not")
+    }
+}
+
+impl MappedAspect {
+    fn check(&self, classes: &[MappedClass], dof: usize) -> Result<(), Unsound> {
+        let domains = &self.domains;
+        let known = |c: &MappedClass| {
+            (c.mode, c.det_a) == (domains.mode, domains.det_a) && c.aspects.contains(&domains.aspect)
+        };
+        holds(classes.iter().any(known), "regions of an aspect that is in no class")?;
+        holds(domains.labels.grid.is_sound(dof), "a grid that is none")?;
+        let regions = domains.regions.len();
+        let is_region = |number: &usize| (1..=regions).contains(number);
+        let numbered =
+            (1..).zip(&domains.regions).all(|(k, region)| region.number == k && region.pose.len() == dof);
+        holds(
+            numbered,
+            "regions that are not numbered from 1, or whose pose has another number of coordinates",
+        )?;
+        let pairs = domains.coincidences.iter().map(|c| c.regions).chain(domains.adjacent.iter().copied());
+        let sets = domains.uniqueness.iter().flat_map(|domain| &domain.regions).copied();
+        let named = pairs.flat_map(|(a, b)| [a, b]).chain(sets).all(|number| is_region(&number));
+        holds(named, "a region that there is not")?;
+        holds(domains.cell.len() == dof, "cells with another number of coordinates")?;
+        self.surfaces.as_ref().map_or(Ok(()), |surfaces| surfaces.check(dof))
+    }
+}
+
+impl Surfaces {
+    fn check(&self, dof: usize) -> Result<(), Unsound> {
+        let Self { boundary, characteristic } = self;
+        let poses = boundary.vertices.iter().map(|v| &v.pose);
+        let mut all = poses.chain(characteristic.vertices.iter().map(|v| &v.pose));
+        holds(all.all(|pose| pose.len() == dof), "vertices with another number of coordinates")?;
+        let joined = |simplices: &[Simplex], count: usize| {
+            simplices.iter().flat_map(|s| s.corners).all(|corner| (corner as usize) < count)
+        };
+        holds(
+            joined(&boundary.simplices, boundary.vertices.len())
+                && joined(&characteristic.simplices, characteristic.vertices.len()),
+            "a mesh with corners that it has not",
+        )
+    }
+}
