@@ -151,11 +151,11 @@ impl Domains {
         directory: &Path,
     ) -> Result<(), Failure> {
         for MappedAspect { domains, surfaces } in sheets {
-            let Some(Surfaces { boundary, characteristic }) = surfaces else {
+            let Some(Surfaces { boundary, characteristic, given_up }) = surfaces else {
                 note(&format!("aspect {}: the file holds no surfaces to draw", domains.aspect));
                 continue;
             };
-            incomplete(domains.aspect, characteristic.given_up);
+            incomplete(domains.aspect, *given_up);
             let cut =
                 Cut { robot: &map.robot, window: &map.window, domains, boundary, surface: characteristic };
             for path in

@@ -124,7 +124,7 @@ fn surfaces(analysis: &Analysis, id: usize, cells: usize) -> Result<Surfaces, Fa
     let boundary = Boundary::new(analysis, id, cells).map_err(|e| Failure::Input(e.to_string()))?;
     let characteristic =
         Characteristic::new(analysis, &boundary).map_err(|e| Failure::Input(e.to_string()))?;
-    Ok(Surfaces { boundary, characteristic })
+    Ok(Surfaces::new(&boundary, &characteristic))
 }
 
 impl From<DomainError> for Failure {

@@ -13,9 +13,7 @@ use super::slices::{Panels, place};
 use super::survey::pose_axis;
 use super::svg::{Anchor, Svg};
 use crate::report::tables::{measure_unit, number as number_text};
-use aspecta::domain::boundary::Boundary;
-use aspecta::domain::characteristic::Characteristic;
-use aspecta::domain::{BasicRegion, Domains, OUTSIDE};
+use aspecta::domain::{self, BasicRegion, Domains, OUTSIDE};
 use aspecta::robot::{Robot, Window};
 
 /// Most slices in a figure, and how many are in a row.
@@ -44,9 +42,9 @@ pub struct Cut<'a> {
     /// The regions of one of its aspects.
     pub domains: &'a Domains,
     /// The boundary of that aspect.
-    pub boundary: &'a Boundary,
+    pub boundary: &'a domain::Mesh,
     /// Its characteristic surfaces.
-    pub surface: &'a Characteristic,
+    pub surface: &'a domain::Mesh,
 }
 
 /// The basic regions of an aspect.

@@ -2,8 +2,8 @@
 
 use super::barrier::Kind;
 use super::level::chain;
-use aspecta::domain::boundary::{Boundary, Face, Simplex};
-use aspecta::domain::characteristic::Characteristic;
+use aspecta::domain;
+use aspecta::domain::boundary::{Face, Simplex};
 use aspecta::kinematics::modal::Constraint;
 use aspecta::num::without_turns;
 use std::f64::consts::PI;
@@ -26,17 +26,9 @@ pub struct Plane {
     pub glued: bool,
 }
 
-impl<'a> From<&'a Boundary> for Mesh<'a> {
-    fn from(boundary: &'a Boundary) -> Self {
-        let vertices = boundary.vertices.iter().map(|v| &v.pose[..]).collect();
-        Self { vertices, simplices: &boundary.simplices }
-    }
-}
-
-impl<'a> From<&'a Characteristic> for Mesh<'a> {
-    fn from(surface: &'a Characteristic) -> Self {
-        let vertices = surface.vertices.iter().map(|v| &v.pose[..]).collect();
-        Self { vertices, simplices: &surface.simplices }
+impl<'a> From<&'a domain::Mesh> for Mesh<'a> {
+    fn from(mesh: &'a domain::Mesh) -> Self {
+        Self { vertices: mesh.vertices.iter().map(Vec::as_slice).collect(), simplices: &mesh.simplices }
     }
 }
 

@@ -7,8 +7,8 @@ pub mod vtk;
 use crate::figure::barrier::Barriers;
 use crate::figure::regions::Cut;
 use crate::figure::survey::pose_axis;
-use aspecta::domain::boundary::{Boundary, Face, Simplex};
-use aspecta::domain::characteristic::Characteristic;
+use aspecta::domain::Mesh;
+use aspecta::domain::boundary::{Face, Simplex};
 use aspecta::kinematics::modal::Constraint;
 use std::collections::HashMap;
 use std::f64::consts::{PI, TAU};
@@ -78,8 +78,8 @@ impl Surfaces {
             coordinates: std::array::from_fn(|k| pose_axis(robot, window, k).label),
             angle: robot.platform.coordinates()[2].angle,
             surfaces: [
-                Surface::boundary(boundary, &faces, glued, &joints),
-                Surface::characteristic(surface, &faces, glued, &joints),
+                Surface::new("boundary", boundary, &faces, glued, &joints),
+                Surface::new("characteristic", surface, &faces, glued, &joints),
             ],
             faces,
         })
@@ -110,20 +110,16 @@ impl<'a> Joints<'a> {
 }
 
 impl Surface {
-    fn boundary(of: &Boundary, faces: &[Face], glued: bool, joints: &Joints<'_>) -> Self {
-        let poses = of.vertices.iter().map(|v| &v.pose[..]);
-        let data = vec![joints.data(poses.clone())];
-        Self::glued("boundary", poses.map(triple).collect(), &of.simplices, faces, glued, data)
-    }
-
-    fn characteristic(of: &Characteristic, faces: &[Face], glued: bool, joints: &Joints<'_>) -> Self {
-        let poses = of.vertices.iter().map(|v| &v.pose[..]);
-        let sources = of.vertices.iter().map(|v| triple(&of.sources[v.source as usize].pose));
-        let robot = &joints.cut.robot;
-        let components = std::array::from_fn(|k| pose_axis(robot, joints.cut.window, k).label);
-        let source = Data { name: "source", components, values: sources.collect() };
-        let data = vec![joints.data(poses.clone()), source];
-        Self::glued("characteristic", poses.map(triple).collect(), &of.simplices, faces, glued, data)
+    fn new(name: &'static str, of: &Mesh, faces: &[Face], glued: bool, joints: &Joints<'_>) -> Self {
+        let poses = of.vertices.iter().map(Vec::as_slice);
+        let mut data = vec![joints.data(poses.clone())];
+        if !of.sources.is_empty() {
+            let Cut { robot, window, .. } = joints.cut;
+            let components = std::array::from_fn(|k| pose_axis(robot, window, k).label);
+            let values = of.sources.iter().map(|pose| triple(pose)).collect();
+            data.push(Data { name: "source", components, values });
+        }
+        Self::glued(name, poses.map(triple).collect(), &of.simplices, faces, glued, data)
     }
 
     fn glued(

@@ -8,7 +8,7 @@ mod meshes;
 use aspecta::aspect::{Analysis, DetSign};
 use aspecta::domain::boundary::Boundary;
 use aspecta::domain::characteristic::Characteristic;
-use aspecta::domain::{DomainOptions, Domains, domains};
+use aspecta::domain::{DomainOptions, Domains, Mesh, domains};
 use aspecta::paving::Control;
 use aspecta::robot::catalogue;
 use aspecta_cli::figure::regions::Cut;
@@ -19,8 +19,8 @@ use std::sync::atomic::AtomicBool;
 pub struct Case {
     analysis: Analysis,
     domains: Domains,
-    boundary: Boundary,
-    surface: Characteristic,
+    boundary: Mesh,
+    surface: Mesh,
 }
 
 impl Case {
@@ -30,7 +30,7 @@ impl Case {
         let domains = domains(&analysis, id, DomainOptions { cells, samples: 1000 }, &control).unwrap();
         let boundary = Boundary::new(&analysis, id, mesh).unwrap();
         let surface = Characteristic::new(&analysis, &boundary).unwrap();
-        Self { analysis, domains, boundary, surface }
+        Self { analysis, domains, boundary: (&boundary).into(), surface: (&surface).into() }
     }
 
     fn three_rpr(cells: usize, mesh: usize) -> Self {

@@ -2,6 +2,7 @@
 
 use crate::Case;
 use crate::common::{analysis, five_bar, three_rrr};
+use aspecta::domain;
 use aspecta::domain::boundary::Boundary;
 use aspecta_cli::figure::barrier::Kind;
 use aspecta_cli::figure::palette::{PALE, SINGLE, UNDECIDED};
@@ -84,7 +85,7 @@ fn hue(colour: &str) -> f64 {
 /// Where a plane meets the serial part of the boundary, a leg of the 3-RRR is stretched: |AᵢCᵢ| = 20.
 #[test]
 fn sections_lie_on_the_boundary() {
-    let boundary = Boundary::new(&analysis(&three_rrr(), 7), 1, 48).unwrap();
+    let boundary = domain::Mesh::from(&Boundary::new(&analysis(&three_rrr(), 7), 1, 48).unwrap());
     let anchors = [[-10.0, -10.0], [10.0, -10.0], [0.0, 10.0_f64]];
     let attachments = [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0_f64]];
     for at in [-0.6, 0.25, 2.0_f64] {

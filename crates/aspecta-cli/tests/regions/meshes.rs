@@ -22,8 +22,8 @@ fn surfaces() -> Surfaces {
 #[test]
 fn triangles_hang_together_across_the_full_turn() {
     let (case, all) = (&CASE, surfaces());
-    let boundary: Vec<&[f64]> = case.boundary.vertices.iter().map(|v| &v.pose[..]).collect();
-    let characteristic = case.surface.vertices.iter().map(|v| &v.pose[..]).collect();
+    let boundary: Vec<&[f64]> = case.boundary.vertices.iter().map(Vec::as_slice).collect();
+    let characteristic = case.surface.vertices.iter().map(Vec::as_slice).collect();
     let meshes = [(boundary, &case.boundary.simplices), (characteristic, &case.surface.simplices)];
     for (surface, (poses, simplices)) in all.surfaces.iter().zip(meshes) {
         assert!(surface.vertices.len() > poses.len(), "the mesh does not cross φ = π: nothing is tested");

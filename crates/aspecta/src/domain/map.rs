@@ -9,10 +9,10 @@ mod file;
 
 pub use file::{MAP_VERSION, MapError};
 
-use super::boundary::{Boundary, Face};
-use super::characteristic::Characteristic;
+use super::boundary::Face;
 use super::field::Field;
 use super::labels::OUTSIDE;
+use super::mesh::Surfaces;
 use super::result::Domains;
 use super::sheet::{Belongs, Sheet};
 use crate::aspect::{Analysis, Count, DetSign, Measure};
@@ -61,16 +61,6 @@ pub struct MappedAspect {
     pub domains: Domains,
     /// What pictures need besides, if it was computed.
     pub surfaces: Option<Surfaces>,
-}
-
-/// The meshes of an aspect.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Surfaces {
-    /// Its boundary.
-    pub boundary: Boundary,
-    /// Its characteristic surfaces.
-    pub characteristic: Characteristic,
 }
 
 /// Where a pose is, in a working mode.

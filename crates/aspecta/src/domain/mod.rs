@@ -16,6 +16,7 @@ mod grid;
 mod images;
 mod labels;
 mod map;
+mod mesh;
 mod partition;
 mod result;
 mod sheet;
@@ -23,7 +24,8 @@ mod uniqueness;
 
 pub use analysis::domains;
 pub use labels::{Labels, OUTSIDE};
-pub use map::{Location, MAP_VERSION, Map, MapError, MappedAspect, MappedClass, Nowhere, Surfaces};
+pub use map::{Location, MAP_VERSION, Map, MapError, MappedAspect, MappedClass, Nowhere};
+pub use mesh::{Mesh, Surfaces};
 pub use result::{
     Agreement, BasicRegion, Coincidence, Disagreement, DomainError, DomainOptions, Domains, UniquenessDomain,
     Unresolved, Violation,

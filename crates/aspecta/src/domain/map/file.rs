@@ -1,11 +1,11 @@
 //! The file of a map: gzip-compressed JSON (docs/map-file.md).
 
-use super::{Map, MappedAspect, MappedClass, Surfaces};
+use super::{Map, MappedAspect, MappedClass};
 use crate::aspect::{Count, Measure};
 use crate::certificate::{Unsound, check_robot};
-use crate::domain::boundary::Simplex;
 use crate::domain::grid::Grid;
 use crate::domain::labels::{Labels, OUTSIDE};
+use crate::domain::mesh::Surfaces;
 use crate::domain::result::Domains;
 use crate::kinematics::WorkingMode;
 use crate::robot::{Robot, SliceError};
@@ -214,17 +214,14 @@ impl MappedAspect {
 
 impl Surfaces {
     fn check(&self, dof: usize) -> Result<(), Unsound> {
-        let Self { boundary, characteristic } = self;
-        let poses = boundary.vertices.iter().map(|v| &v.pose);
-        let mut all = poses.chain(characteristic.vertices.iter().map(|v| &v.pose));
-        holds(all.all(|pose| pose.len() == dof), "vertices with another number of coordinates")?;
-        let joined = |simplices: &[Simplex], count: usize| {
-            simplices.iter().flat_map(|s| s.corners).all(|corner| (corner as usize) < count)
-        };
-        holds(
-            joined(&boundary.simplices, boundary.vertices.len())
-                && joined(&characteristic.simplices, characteristic.vertices.len()),
-            "a mesh with corners that it has not",
-        )
+        for mesh in [&self.boundary, &self.characteristic] {
+            let count = mesh.vertices.len();
+            let mut poses = mesh.vertices.iter().chain(&mesh.sources);
+            holds(poses.all(|pose| pose.len() == dof), "vertices with another number of coordinates")?;
+            holds([0, count].contains(&mesh.sources.len()), "sources of some vertices only")?;
+            let mut corners = mesh.simplices.iter().flat_map(|s| s.corners);
+            holds(corners.all(|corner| (corner as usize) < count), "a mesh with corners that it has not")?;
+        }
+        Ok(())
     }
 }

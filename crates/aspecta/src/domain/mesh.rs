@@ -1,0 +1,98 @@
+//! Curves and surfaces over poses, without how they came about.
+
+use super::boundary::{Boundary, Face, Simplex};
+use super::characteristic::{Characteristic, GivenUp};
+use serde::{Deserialize, Serialize};
+
+/// Segments or triangles over poses of two or three coordinates.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(into = "Packed", from = "Packed")]
+pub struct Mesh {
+    /// The vertices.
+    pub vertices: Vec<Vec<f64>>,
+    /// Per vertex of a characteristic surface, the pose on the boundary with the same joint vector; empty for a boundary.
+    pub sources: Vec<Vec<f64>>,
+    /// What joins them: [`Boundary::simplices`] or [`Characteristic::simplices`].
+    pub simplices: Vec<Simplex>,
+}
+
+impl From<&Boundary> for Mesh {
+    fn from(boundary: &Boundary) -> Self {
+        let vertices = boundary.vertices.iter().map(|v| v.pose.clone()).collect();
+        Self { vertices, sources: Vec::new(), simplices: boundary.simplices.clone() }
+    }
+}
+
+impl From<&Characteristic> for Mesh {
+    fn from(surface: &Characteristic) -> Self {
+        let vertices = surface.vertices.iter().map(|v| v.pose.clone()).collect();
+        let sources =
+            surface.vertices.iter().map(|v| surface.sources[v.source as usize].pose.clone()).collect();
+        Self { vertices, sources, simplices: surface.simplices.clone() }
+    }
+}
+
+/// The meshes of an aspect.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Surfaces {
+    /// Its boundary.
+    pub boundary: Mesh,
+    /// Its characteristic surfaces.
+    pub characteristic: Mesh,
+    /// What is missing of these.
+    pub given_up: GivenUp,
+}
+
+impl Surfaces {
+    /// The meshes of a boundary and of what it maps to.
+    pub fn new(boundary: &Boundary, characteristic: &Characteristic) -> Self {
+        let given_up = characteristic.given_up;
+        Self { boundary: boundary.into(), characteristic: characteristic.into(), given_up }
+    }
+}
+
+/// A mesh as it is kept: numbers in rows, simplices gathered by face.
+#[derive(Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Packed {
+    axes: usize,
+    poses: Vec<f64>,
+    sources: Vec<f64>,
+    pieces: Vec<Piece>,
+}
+
+#[derive(Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Piece {
+    face: Face,
+    corners: Vec<[u32; 3]>,
+}
+
+impl From<Mesh> for Packed {
+    fn from(mesh: Mesh) -> Self {
+        let mut pieces: Vec<Piece> = Vec::new();
+        for Simplex { corners, face } in mesh.simplices {
+            match pieces.iter_mut().find(|piece| piece.face == face) {
+                Some(piece) => piece.corners.push(corners),
+                None => pieces.push(Piece { face, corners: vec![corners] }),
+            }
+        }
+        let axes = mesh.vertices.first().map_or(0, Vec::len);
+        Self { axes, poses: mesh.vertices.concat(), sources: mesh.sources.concat(), pieces }
+    }
+}
+
+impl From<Packed> for Mesh {
+    fn from(Packed { axes, poses, sources, pieces }: Packed) -> Self {
+        let simplices = |Piece { face, corners }: Piece| {
+            corners.into_iter().map(move |corners| Simplex { corners, face })
+        };
+        let rows = |numbers: Vec<f64>| numbers.chunks(axes.max(1)).map(<[f64]>::to_vec).collect();
+        Self {
+            vertices: rows(poses),
+            sources: rows(sources),
+            simplices: pieces.into_iter().flat_map(simplices).collect(),
+        }
+    }
+}
