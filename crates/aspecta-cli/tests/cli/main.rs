@@ -7,6 +7,7 @@ mod csv;
 mod cusps;
 mod domains;
 mod json;
+mod locate;
 mod people;
 mod process;
 mod verify;

@@ -52,7 +52,7 @@ impl Surfaces {
     }
 }
 
-/// A mesh as it is kept: numbers in rows, simplices gathered by face.
+/// A mesh as it is kept: numbers in rows, neighbouring simplices of a face together.
 #[derive(Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Packed {
@@ -71,13 +71,10 @@ struct Piece {
 
 impl From<Mesh> for Packed {
     fn from(mesh: Mesh) -> Self {
-        let mut pieces: Vec<Piece> = Vec::new();
-        for Simplex { corners, face } in mesh.simplices {
-            match pieces.iter_mut().find(|piece| piece.face == face) {
-                Some(piece) => piece.corners.push(corners),
-                None => pieces.push(Piece { face, corners: vec![corners] }),
-            }
-        }
+        let runs = mesh.simplices.chunk_by(|a, b| a.face == b.face);
+        let piece =
+            |run: &[Simplex]| Piece { face: run[0].face, corners: run.iter().map(|s| s.corners).collect() };
+        let pieces = runs.map(piece).collect();
         let axes = mesh.vertices.first().map_or(0, Vec::len);
         Self { axes, poses: mesh.vertices.concat(), sources: mesh.sources.concat(), pieces }
     }
