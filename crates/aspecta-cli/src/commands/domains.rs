@@ -1,5 +1,6 @@
 //! `aspecta domains`: basic regions and uniqueness domains.
 
+use super::drawing::Drawing;
 use super::queries::Labels;
 use super::{budget, watch};
 use crate::failure::{Answer, Failure};
@@ -11,7 +12,7 @@ use aspecta::domain::characteristic::{Characteristic, GivenUp};
 use aspecta::domain::{DomainError, DomainOptions, Domains as Found, domains};
 use aspecta::paving::{Budget, Stop};
 use aspecta::robot::Robot;
-use aspecta_cli::domains::{self as figures, Format};
+use aspecta_cli::domains as figures;
 use aspecta_cli::figure::regions::Cut;
 use aspecta_cli::file;
 
@@ -40,13 +41,12 @@ pub struct Domains {
     /// Print the whole result as JSON, and nothing else, on stdout (angles in radians)
     #[arg(long)]
     json: bool,
-    /// Write maps of the basic regions and of the largest uniqueness domain into this directory, and for robots with 3
-    /// coordinates the boundary and the characteristic surface as meshes
+    /// Write pictures into this directory: basic regions, the largest uniqueness domain, basic components and the sheets over joint
+    /// space; for robots with 3 coordinates also the boundary and the characteristic surface as meshes
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Formats of the meshes: a list of ply, glb (glTF, both in colour in one file) and vtp (VTK, with joint vectors)
-    #[arg(long, value_name = "LIST", value_delimiter = ',', requires = "out", default_value = "ply,glb")]
-    meshes: Vec<Format>,
+    #[command(flatten)]
+    drawing: Drawing,
     /// When to stop telling the aspects apart, as for `analyze` [default: depth=11 for 2 coordinates, depth=7 for 3]
     #[arg(long, value_parser = budget::parse, allow_hyphen_values = true)]
     budget: Option<Budget>,
@@ -120,8 +120,8 @@ impl Domains {
             for (domains, (boundary, surface)) in found.iter().zip(&surfaces) {
                 incomplete(surface);
                 let cut = Cut { analysis: &analysis, domains, boundary, surface };
-                for path in
-                    figures::write(&cut, &self.meshes, directory).map_err(Failure::in_directory(directory))?
+                for path in figures::write(&cut, &self.drawing.choice(), directory)
+                    .map_err(Failure::in_directory(directory))?
                 {
                     let written = path.display();
                     if self.json {

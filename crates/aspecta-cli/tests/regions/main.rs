@@ -2,6 +2,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod joints;
 mod maps;
 mod meshes;
 
