@@ -1,6 +1,9 @@
 //! Files of section 4: pictures of basic regions and uniqueness domains, meshes of the surfaces that bound them.
 
+use crate::figure::components::JointSpace;
+use crate::figure::joints::components;
 use crate::figure::regions::{Cut, regions, uniqueness};
+use crate::figure::stack::stack;
 use crate::file::put;
 use crate::mesh::{Surfaces, gltf, ply, vtk};
 use clap::ValueEnum;
@@ -19,30 +22,45 @@ pub enum Format {
     Vtp,
 }
 
-/// Writes `aspect-N-regions.svg` and `aspect-N-uniqueness.svg` into `dir`, which is created if need be; for robots with three coordinates
-/// also meshes in these formats: `aspect-N-boundary` and `aspect-N-characteristic`, or both in one file `aspect-N.glb`. Returns the
-/// paths.
+/// What may be chosen of the files.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Choice {
+    /// Formats of the meshes.
+    pub meshes: Vec<Format>,
+    /// The joint, from 0, that is held in pictures of a joint space of three.
+    pub held: usize,
+}
+
+/// Writes pictures into `dir`, which is created if need be: `aspect-N-regions.svg`, `-uniqueness.svg`, `-components.svg` and
+/// `-sheets.svg`; for robots with three coordinates also meshes, `aspect-N-boundary` and `aspect-N-characteristic`, or both in one file
+/// `aspect-N.glb`. Returns the paths.
 ///
 /// # Errors
 /// Those of the file system.
-pub fn write(cut: &Cut<'_>, formats: &[Format], dir: &Path) -> io::Result<Vec<PathBuf>> {
+pub fn write(cut: &Cut<'_>, choice: &Choice, dir: &Path) -> io::Result<Vec<PathBuf>> {
     fs::create_dir_all(dir)?;
     let number = cut.domains.aspect;
-    let mut written = vec![
-        put(dir, &format!("aspect-{number}-regions.svg"), regions(cut))?,
-        put(dir, &format!("aspect-{number}-uniqueness.svg"), uniqueness(cut))?,
-    ];
+    let mut written = Vec::new();
+    let mut keep = |what: &str, content: &[u8]| -> io::Result<()> {
+        written.push(put(dir, &format!("aspect-{number}{what}"), content)?);
+        Ok(())
+    };
+    keep("-regions.svg", regions(cut).as_bytes())?;
+    keep("-uniqueness.svg", uniqueness(cut).as_bytes())?;
+    if let Some(space) = JointSpace::new(cut, choice.held) {
+        keep("-components.svg", components(&space).as_bytes())?;
+        keep("-sheets.svg", stack(&space).as_bytes())?;
+    }
     let Some(meshes) = Surfaces::new(cut) else { return Ok(written) };
-    if formats.contains(&Format::Glb) {
-        written.push(put(dir, &format!("aspect-{number}.glb"), gltf::glb(&meshes))?);
+    if choice.meshes.contains(&Format::Glb) {
+        keep(".glb", &gltf::glb(&meshes))?;
     }
     for surface in &meshes.surfaces {
-        let name = |extension: &str| format!("aspect-{number}-{}.{extension}", surface.name);
-        if formats.contains(&Format::Ply) {
-            written.push(put(dir, &name("ply"), ply::ply(&meshes, surface))?);
+        if choice.meshes.contains(&Format::Ply) {
+            keep(&format!("-{}.ply", surface.name), &ply::ply(&meshes, surface))?;
         }
-        if formats.contains(&Format::Vtp) {
-            written.push(put(dir, &name("vtp"), vtk::vtp(&meshes, surface))?);
+        if choice.meshes.contains(&Format::Vtp) {
+            keep(&format!("-{}.vtp", surface.name), vtk::vtp(&meshes, surface).as_bytes())?;
         }
     }
     Ok(written)

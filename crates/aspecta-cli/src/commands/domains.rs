@@ -1,5 +1,6 @@
 //! `aspecta domains`: basic regions and uniqueness domains.
 
+use super::drawing::Drawing;
 use super::mapping::{Making, Source, Wanted};
 use super::target::Target;
 use super::{regions, watch};
@@ -11,7 +12,7 @@ use aspecta::domain::characteristic::GivenUp;
 use aspecta::domain::{DomainError, Domains as Found, Map, MappedAspect, Surfaces};
 use aspecta::paving::Stop;
 use aspecta::robot::Robot;
-use aspecta_cli::domains::{self as figures, Format};
+use aspecta_cli::domains as figures;
 use aspecta_cli::figure::regions::Cut;
 use aspecta_cli::file;
 use clap::{Args, ValueEnum};
@@ -41,13 +42,12 @@ pub struct Domains {
     /// Write all of it into this file, for `aspecta locate` and for `aspecta domains` to print and draw again
     #[arg(long, value_name = "FILE")]
     save: Option<PathBuf>,
-    /// Write maps of the basic regions and of the largest uniqueness domain into this directory, and for robots with 3
-    /// coordinates the boundary and the characteristic surface as meshes
+    /// Write pictures into this directory: basic regions, the largest uniqueness domain, basic components and the sheets over joint
+    /// space; for robots with 3 coordinates also the boundary and the characteristic surface as meshes
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Formats of the meshes: a list of ply, glb (glTF, both in colour in one file) and vtp (VTK, with joint vectors)
-    #[arg(long, value_name = "LIST", value_delimiter = ',', requires = "out", default_value = "ply,glb")]
-    meshes: Vec<Format>,
+    #[command(flatten)]
+    drawing: Drawing,
     /// Number of threads [default: all cores]; the result does not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
@@ -156,10 +156,9 @@ impl Domains {
                 continue;
             };
             incomplete(domains.aspect, *given_up);
-            let cut =
-                Cut { robot: &map.robot, window: &map.window, domains, boundary, surface: characteristic };
-            for path in
-                figures::write(&cut, &self.meshes, directory).map_err(Failure::in_directory(directory))?
+            let cut = Cut { map, domains, boundary, surface: characteristic };
+            for path in figures::write(&cut, &self.drawing.choice(), directory)
+                .map_err(Failure::in_directory(directory))?
             {
                 self.written(out, &path)?;
             }

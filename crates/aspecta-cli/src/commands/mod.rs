@@ -8,6 +8,7 @@ mod completions;
 mod cusps;
 mod domains;
 mod doubts;
+mod drawing;
 mod fix;
 mod fk;
 mod ik;

@@ -31,16 +31,41 @@ impl Grid {
 /// The curves f = 0, given the values of f at the nodes: polylines whose vertices are the zeros of f on the grid's
 /// edges, each found to the last bits of its coordinate. A closed curve repeats its first vertex.
 pub fn contours(grid: &Grid, values: &[f64], f: impl Fn([f64; 2]) -> f64) -> Vec<Vec<[f64; 2]>> {
-    chain(&segments(grid, values, &f))
-        .into_iter()
-        .map(|edges| {
-            let zero = |&(i, j, up): &Edge| {
-                let far = if up { (i, j + 1) } else { (i + 1, j) };
-                root(grid.node(i, j), grid.node(far.0, far.1), &f)
-            };
-            edges.iter().map(zero).collect()
-        })
-        .collect()
+    traced(grid, values, &f, |a, b| root(a, b, &f))
+}
+
+/// The edges of a set, given which nodes are in it; vertices are found by so many halvings of the grid's edges.
+pub fn edges(
+    grid: &Grid,
+    nodes: &[bool],
+    is_in: impl Fn([f64; 2]) -> bool,
+    halvings: u32,
+) -> Vec<Vec<[f64; 2]>> {
+    let sign = |is_in: bool| if is_in { 1.0 } else { -1.0 };
+    let values: Vec<f64> = nodes.iter().map(|&node| sign(node)).collect();
+    let middle = |a: [f64; 2], b: [f64; 2]| [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
+    traced(grid, &values, &|p| sign(is_in(p)), |mut a, mut b| {
+        let start = is_in(a);
+        for _ in 0..halvings {
+            let m = middle(a, b);
+            if is_in(m) == start { a = m } else { b = m }
+        }
+        middle(a, b)
+    })
+}
+
+/// The polylines through the edges of the grid on which f changes sign, at the places that `zero` finds between two nodes.
+fn traced(
+    grid: &Grid,
+    values: &[f64],
+    f: &impl Fn([f64; 2]) -> f64,
+    zero: impl Fn([f64; 2], [f64; 2]) -> [f64; 2],
+) -> Vec<Vec<[f64; 2]>> {
+    let on_edge = |&(i, j, up): &Edge| {
+        let far = if up { (i, j + 1) } else { (i + 1, j) };
+        zero(grid.node(i, j), grid.node(far.0, far.1))
+    };
+    chain(&segments(grid, values, f)).iter().map(|edges| edges.iter().map(on_edge).collect()).collect()
 }
 
 /// An edge of the grid: from node (i, j) upward or to the right.

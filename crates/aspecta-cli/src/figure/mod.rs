@@ -5,11 +5,16 @@
 
 pub mod axes;
 pub mod barrier;
+pub mod components;
 pub mod curves;
+mod hues;
 pub mod image;
+pub mod joints;
 mod label;
+mod legend;
 pub mod level;
 pub mod maps;
+mod oblique;
 pub mod palette;
 pub mod profile;
 pub mod raster;
@@ -18,6 +23,7 @@ pub mod robot;
 pub mod section;
 mod skeleton;
 pub mod slices;
+pub mod stack;
 pub mod strips;
 pub mod survey;
 pub mod svg;

@@ -3,42 +3,39 @@
 //! *Numerical*: colours are true to a cell of the grid, lines to the mesh they are cut from.
 
 use super::axes::{Axis, Chart};
-use super::barrier::Kind;
-use super::maps::{NUMBER, draw_lines, draw_styled, fill, sample_line, sign_text, styled_line, swatch};
-use super::palette::{self, PALE, SINGLE, UNDECIDED};
+
+use super::hues::Hues;
+use super::legend::Legend;
+use super::maps::{NUMBER, draw_lines, draw_styled, fill, sign_text};
+use super::palette::{PALE, UNDECIDED};
 use super::raster::Raster;
 use super::robot::signs;
-use super::section::{Mesh, Plane, kind};
+use super::section::{Mesh, Plane};
 use super::slices::{Panels, place};
 use super::survey::pose_axis;
 use super::svg::{Anchor, Svg};
 use crate::report::tables::{measure_unit, number as number_text};
-use aspecta::domain::{self, BasicRegion, Domains, OUTSIDE};
-use aspecta::robot::{Robot, Window};
+use aspecta::domain::{self, BasicRegion, Domains, Map, OUTSIDE};
 
 /// Most slices in a figure, and how many are in a row.
-const SLICES: usize = 12;
-const COLUMNS: usize = 4;
+pub(super) const SLICES: usize = 12;
+pub(super) const COLUMNS: usize = 4;
 /// Longest side of a slice, and of the map of a robot with two coordinates, pixels.
-const SLICE: f64 = 230.0;
-const MAP: f64 = 560.0;
-/// Room for the heading, and for a line of the legend.
-const HEADING: f64 = 20.0;
-const LINE: f64 = 17.0;
-/// Width of a region's entry in the legend, and how many there are at most.
-const ENTRY: f64 = 190.0;
-const LISTED: usize = 48;
+pub(super) const SLICE: f64 = 230.0;
+pub(super) const MAP: f64 = 560.0;
+/// Room for the heading.
+pub(super) const HEADING: f64 = 20.0;
+/// Width of a region's entry in the legend.
+pub(super) const ENTRY: f64 = 190.0;
 /// Least side of the square in which a region's number stands, pixels.
 const ROOM: f64 = 12.0;
-const CHARACTERISTIC: &str = "fill:none;stroke:#222;stroke-width:0.6;stroke-linejoin:round";
+pub(super) const CHARACTERISTIC: &str = "fill:none;stroke:#222;stroke-width:0.6;stroke-linejoin:round";
 
 /// What is drawn: an aspect cut into its regions, and the surfaces that bound them.
 #[derive(Clone, Copy, Debug)]
 pub struct Cut<'a> {
-    /// The robot.
-    pub robot: &'a Robot,
-    /// The box that holds its workspace.
-    pub window: &'a Window,
+    /// The robot and its aspects.
+    pub map: &'a Map,
     /// The regions of one of its aspects.
     pub domains: &'a Domains,
     /// The boundary of that aspect.
@@ -65,26 +62,10 @@ pub fn uniqueness(cut: &Cut<'_>) -> String {
     sheet(cut, "uniqueness", "Largest uniqueness domain", &colours, &|number| largest.contains(&number))
 }
 
-/// A colour for each region: those whose images meet, directly or through others, are shades of one hue.
-fn colours(domains: &Domains) -> Vec<String> {
-    let mut group: Vec<usize> = (0..domains.regions.len()).collect();
-    for found in &domains.coincidences {
-        let (a, b) = (group[found.regions.0 - 1], group[found.regions.1 - 1]);
-        group.iter_mut().filter(|g| **g == a.max(b)).for_each(|g| *g = a.min(b));
-    }
-    let mut hues: Vec<usize> = Vec::new();
-    let paint = |(k, region): (usize, &BasicRegion)| {
-        if region.solutions < 2 {
-            return SINGLE.to_owned();
-        }
-        if !hues.contains(&group[k]) {
-            hues.push(group[k]);
-        }
-        let hue = hues.iter().position(|&g| g == group[k]).map_or(1, |hue| hue + 1);
-        let alike = |range: std::ops::Range<usize>| range.filter(|&other| group[other] == group[k]).count();
-        palette::shade(hue, alike(0..k), alike(0..group.len()))
-    };
-    domains.regions.iter().enumerate().map(paint).collect()
+/// A colour for each region.
+pub(super) fn colours(domains: &Domains) -> Vec<String> {
+    let hues = Hues::new(domains);
+    (0..domains.regions.len()).map(|region| hues.region(region)).collect()
 }
 
 fn sheet(
@@ -94,7 +75,7 @@ fn sheet(
     colours: &[String],
     is_shown: &dyn Fn(usize) -> bool,
 ) -> String {
-    let Cut { robot, window, domains, .. } = cut;
+    let Cut { map: Map { robot, window, .. }, domains, .. } = cut;
     let grid = &domains.labels.grid;
     let in_plane = grid.axes() == 2;
     let layers = if in_plane { vec![0] } else { layers(domains) };
@@ -108,12 +89,24 @@ fn sheet(
     let panels = Panels::new(axes, side, columns, HEADING);
     let (width, height) = panels.size(count);
     let width = width.max(720.0);
-    let legend = Legend { cut, colours, is_shown, left: panels.left, width };
-    let mode = signs(&domains.mode.to_string());
-    let title = format!("{title} of aspect {}: mode ({mode}), {}", domains.aspect, sign_text(domains.det_a));
+    let entries = entries(cut, colours, is_shown);
+    let hidden = entries.len() < domains.regions.len();
+    let legend = Legend {
+        cut,
+        entry: ENTRY,
+        notes: hidden.then_some((PALE, "other regions")).into_iter().chain(thin(domains)).collect(),
+        caption: "n: direct solutions in the aspect; regions of one hue have coincident images",
+        of: "",
+        thin: (!cut.surface.simplices.is_empty()).then_some("characteristic surface"),
+        left: panels.left,
+        right: width,
+        entries,
+    };
+    let title = heading(title, domains);
     let id = format!("{name}-{}", domains.aspect);
     let mut svg = Svg::new(&id, width, height + legend.height() + 12.0, &title);
     svg.text([panels.left, 16.0], Anchor::Start, 13.0, "font-weight:600", &title);
+    let (boundary, surface) = (Mesh::from(cut.boundary), Mesh::from(cut.surface));
     for k in 0..count {
         let layer = layers[(2 * k + 1) * layers.len() / (2 * count)];
         let at = grid.pose(layer * grid.count[0] * grid.count[1])[2];
@@ -121,12 +114,24 @@ fn sheet(
         let chart = panels.chart(k);
         let raster = layer_of(domains, layer);
         fill(&mut svg, &chart, &raster, |label| colour(colours, label));
-        draw_surfaces(&mut svg, &chart, cut, plane);
+        let inner: Vec<_> = surface.kinds(plane).into_iter().map(|(_, line)| line).collect();
+        draw_surfaces(&mut svg, &chart, &boundary, plane, &inner);
         number(&mut svg, &chart, &raster, domains.regions.len(), is_shown);
         chart.frame(&mut svg, &if in_plane { String::new() } else { place(robot, at) });
     }
     legend.draw(&mut svg, height + 10.0);
     svg.finish()
+}
+
+/// What a picture shows, and of which aspect.
+pub(super) fn heading(what: &str, domains: &Domains) -> String {
+    let mode = signs(&domains.mode.to_string());
+    format!("{what} of aspect {}: mode ({mode}), {}", domains.aspect, sign_text(domains.det_a))
+}
+
+/// The note on nodes without a region, if there are any.
+pub(super) fn thin(domains: &Domains) -> Option<(&'static str, &'static str)> {
+    (domains.unresolved.parts > 0).then_some((UNDECIDED, "thinner than two cells"))
 }
 
 /// The layers across the third coordinate that meet the aspect.
@@ -147,16 +152,18 @@ fn colour(colours: &[String], label: u32) -> Option<&str> {
     (label != OUTSIDE).then(|| colours.get(label as usize).map_or(UNDECIDED, String::as_str))
 }
 
-/// The boundary over the characteristic surface.
-fn draw_surfaces(svg: &mut Svg, chart: &Chart, cut: &Cut<'_>, plane: Option<Plane>) {
-    const KINDS: [Kind; 3] = [Kind::Limit, Kind::Serial, Kind::Parallel];
-    let (surface, boundary) = (Mesh::from(cut.surface), Mesh::from(cut.boundary));
-    let inner: Vec<_> = KINDS.into_iter().flat_map(|kind| surface.lines(kind, plane)).collect();
+/// Lines of the boundary over thin ones.
+pub(super) fn draw_surfaces(
+    svg: &mut Svg,
+    chart: &Chart,
+    boundary: &Mesh<'_>,
+    plane: Option<Plane>,
+    thin: &[Vec<[f64; 2]>],
+) {
     chart.clip(svg);
-    draw_styled(svg, chart, inner.iter(), [false; 2], CHARACTERISTIC);
+    draw_styled(svg, chart, thin.iter(), boundary.turns, CHARACTERISTIC);
     svg.close();
-    let lines_of = |kind| boundary.lines(kind, plane).into_iter().map(move |line| (kind, line));
-    draw_lines(svg, chart, &KINDS.into_iter().flat_map(lines_of).collect(), [false; 2]);
+    draw_lines(svg, chart, &boundary.kinds(plane), boundary.turns);
 }
 
 /// Each region's number in the middle of the largest square of it, if there is room.
@@ -180,73 +187,18 @@ fn number(
     }
 }
 
-/// The regions in their colours, and the lines.
-struct Legend<'a> {
-    cut: &'a Cut<'a>,
-    colours: &'a [String],
-    is_shown: &'a dyn Fn(usize) -> bool,
-    left: f64,
-    width: f64,
-}
-
-impl Legend<'_> {
-    fn columns(&self) -> usize {
-        (((self.width - self.left) / ENTRY) as usize).max(1)
-    }
-
-    fn shown(&self) -> Vec<&BasicRegion> {
-        self.cut.domains.regions.iter().filter(|region| (self.is_shown)(region.number)).collect()
-    }
-
-    fn height(&self) -> f64 {
-        let entries = self.shown().len();
-        LINE * (entries.min(LISTED).div_ceil(self.columns()) + usize::from(entries > LISTED) + 2) as f64
-    }
-
-    fn draw(&self, svg: &mut Svg, top: f64) {
-        let (domains, shown) = (self.cut.domains, self.shown());
-        let listed = &shown[..shown.len().min(LISTED)];
-        let rows = listed.len().div_ceil(self.columns());
-        let (mut y, unit) = (top, measure_unit(&self.cut.domains.unit));
-        for (k, region) in listed.iter().enumerate() {
-            let at = [self.left + ENTRY * (k / rows) as f64, y + LINE * (k % rows) as f64];
-            let measure = number_text(region.measure);
-            let text = format!("{}: n = {}, {measure} {unit}", region.number, region.solutions);
-            swatch(svg, at, &self.colours[region.number - 1], &text);
-        }
-        y += LINE * rows as f64;
-        if shown.len() > LISTED {
-            let text = format!("… and {} smaller ones", shown.len() - LISTED);
-            svg.text([self.left, y], Anchor::Start, 11.0, "", &text);
-            y += LINE;
-        }
-        let mut x = self.left;
-        if shown.len() < domains.regions.len() {
-            x = swatch(svg, [x, y], PALE, "other regions");
-        }
-        if domains.unresolved.parts > 0 {
-            x = swatch(svg, [x, y], UNDECIDED, "thinner than two cells");
-        }
-        let text = "n: direct solutions in the aspect; regions of one hue have coincident images";
-        svg.text([x, y], Anchor::Start, 11.0, "", text);
-        self.lines(svg, y + LINE);
-    }
-
-    /// The kinds of lines there are.
-    fn lines(&self, svg: &mut Svg, y: f64) {
-        let names = [
-            (Kind::Parallel, "det A = 0"),
-            (Kind::Serial, "det B = 0"),
-            (Kind::Limit, "joint limit or end of the window"),
-        ];
-        let mut x = self.left;
-        for (of, text) in names {
-            if self.cut.boundary.simplices.iter().any(|s| kind(s.face) == of) {
-                x = sample_line(svg, [x, y], of, text);
-            }
-        }
-        if !self.cut.surface.simplices.is_empty() {
-            styled_line(svg, [x, y], CHARACTERISTIC, "characteristic surface");
-        }
-    }
+/// The entries of regions, by their numbers.
+pub(super) fn entries(
+    cut: &Cut<'_>,
+    colours: &[String],
+    is_shown: &dyn Fn(usize) -> bool,
+) -> Vec<(String, String)> {
+    let unit = measure_unit(&cut.domains.unit);
+    let shown = cut.domains.regions.iter().filter(|region| is_shown(region.number));
+    let entry = |region: &BasicRegion| {
+        let measure = number_text(region.measure);
+        let text = format!("{}: n = {}, {measure} {unit}", region.number, region.solutions);
+        (colours[region.number - 1].clone(), text)
+    };
+    shown.map(entry).collect()
 }

@@ -1,7 +1,8 @@
-//! Boundaries and characteristic surfaces as curves in the plane of a figure.
+//! Boundaries, characteristic surfaces and their images in joint space as curves in the plane of a figure.
 
 use super::barrier::Kind;
 use super::level::chain;
+use super::survey::Lines;
 use aspecta::domain;
 use aspecta::domain::boundary::{Face, Simplex};
 use aspecta::kinematics::modal::Constraint;
@@ -11,10 +12,12 @@ use std::f64::consts::PI;
 /// Segments or triangles over poses.
 #[derive(Clone, Debug)]
 pub struct Mesh<'a> {
-    /// Poses of two or three coordinates.
+    /// Poses or joint vectors of two or three coordinates.
     pub vertices: Vec<&'a [f64]>,
     /// What joins them.
     pub simplices: &'a [Simplex],
+    /// Which of the first two coordinates are angles that close up on themselves: lines then go the short way round and are unwound.
+    pub turns: [bool; 2],
 }
 
 /// The plane of poses with a third coordinate.
@@ -28,7 +31,8 @@ pub struct Plane {
 
 impl<'a> From<&'a domain::Mesh> for Mesh<'a> {
     fn from(mesh: &'a domain::Mesh) -> Self {
-        Self { vertices: mesh.vertices.iter().map(Vec::as_slice).collect(), simplices: &mesh.simplices }
+        let vertices = mesh.vertices.iter().map(Vec::as_slice).collect();
+        Self { vertices, simplices: &mesh.simplices, turns: [false; 2] }
     }
 }
 
@@ -47,7 +51,7 @@ impl Mesh<'_> {
         let of_kind = self.simplices.iter().filter(|s| kind(s.face) == of);
         let Some(plane) = plane else {
             let segments: Vec<(u32, u32)> = of_kind.map(|s| (s.corners[0], s.corners[1])).collect();
-            let points = |ends: Vec<u32>| ends.into_iter().map(|v| self.flat(v)).collect();
+            let points = |ends: Vec<u32>| self.unwound(ends.into_iter().map(|v| self.flat(v)).collect());
             return chain(&segments).into_iter().map(points).collect();
         };
         let height: Vec<f64> = self.vertices.iter().map(|pose| plane.height(pose)).collect();
@@ -64,9 +68,30 @@ impl Mesh<'_> {
         let point = |(u, v): (u32, u32)| {
             let t = height(u) / (height(u) - height(v));
             let (from, to) = (self.flat(u), self.flat(v));
-            [0, 1].map(|k| from[k] + t * (to[k] - from[k]))
+            [0, 1].map(|k| from[k] + t * self.short(k, to[k] - from[k]))
         };
-        chain(&segments).into_iter().map(|edges| edges.into_iter().map(point).collect()).collect()
+        let line = |edges: Vec<_>| self.unwound(edges.into_iter().map(point).collect());
+        chain(&segments).into_iter().map(line).collect()
+    }
+
+    /// The lines of every kind.
+    pub fn kinds(&self, plane: Option<Plane>) -> Lines {
+        let of_kind = |of| self.lines(of, plane).into_iter().map(move |line| (of, line));
+        [Kind::Limit, Kind::Serial, Kind::Parallel].into_iter().flat_map(of_kind).collect()
+    }
+
+    /// A difference in a coordinate, the short way round.
+    fn short(&self, axis: usize, gap: f64) -> f64 {
+        if self.turns[axis] { without_turns(gap) } else { gap }
+    }
+
+    /// A line without jumps of a full turn.
+    fn unwound(&self, mut line: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+        for at in 1..line.len() {
+            let last = line[at - 1];
+            line[at] = [0, 1].map(|k| last[k] + self.short(k, line[at][k] - last[k]));
+        }
+        line
     }
 
     fn flat(&self, vertex: u32) -> [f64; 2] {

@@ -139,9 +139,15 @@ fn joint_axes(robot: &Robot, classes: &[AspectClass]) -> [Axis; 2] {
         } else {
             (0.0, 1.0)
         };
-        let unit = if angle { "rad" } else { &robot.length_unit };
-        Axis { label: format!("q{} [{unit}]", super::robot::subscript(k + 1)), range, angle }
+        joint_axis(robot, k, range)
     })
+}
+
+/// The axis of a joint, over a range.
+pub fn joint_axis(robot: &Robot, k: usize, range: (f64, f64)) -> Axis {
+    let angle = robot.legs[k].actuator.is_angle();
+    let unit = if angle { "rad" } else { &robot.length_unit };
+    Axis { label: format!("q{} [{unit}]", super::robot::subscript(k + 1)), range, angle }
 }
 
 /// Cells as pixels over a plane of poses. Where cells are smaller than a pixel, undecided ones come first and inner

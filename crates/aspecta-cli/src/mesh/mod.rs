@@ -7,8 +7,8 @@ pub mod vtk;
 use crate::figure::barrier::Barriers;
 use crate::figure::regions::Cut;
 use crate::figure::survey::pose_axis;
-use aspecta::domain::Mesh;
 use aspecta::domain::boundary::{Face, Simplex};
+use aspecta::domain::{Map, Mesh};
 use aspecta::kinematics::modal::Constraint;
 use std::collections::HashMap;
 use std::f64::consts::{PI, TAU};
@@ -60,7 +60,7 @@ pub struct Data {
 impl Surfaces {
     /// The surfaces of an aspect; `None` unless its robot has three coordinates.
     pub fn new(cut: &Cut<'_>) -> Option<Self> {
-        let Cut { robot, window, domains, boundary, surface } = cut;
+        let Cut { map: Map { robot, window, .. }, domains, boundary, surface } = cut;
         if robot.dof() != 3 {
             return None;
         }
@@ -94,7 +94,7 @@ struct Joints<'a> {
 
 impl<'a> Joints<'a> {
     fn of(cut: &'a Cut<'a>) -> Self {
-        let robot = &cut.robot;
+        let robot = &cut.map.robot;
         let name = |j: usize| {
             let angle = robot.legs[j].actuator.is_angle();
             format!("q{} [{}]", j + 1, if angle { "rad" } else { &robot.length_unit })
@@ -103,7 +103,7 @@ impl<'a> Joints<'a> {
     }
 
     fn data<'p>(&self, poses: impl Iterator<Item = &'p [f64]>) -> Data {
-        let q = |pose| Barriers::at(self.cut.robot, self.cut.domains.mode, pose).q;
+        let q = |pose| Barriers::at(&self.cut.map.robot, self.cut.domains.mode, pose).q;
         let values = poses.map(|pose| triple(&q(pose))).collect();
         Data { name: "q", components: self.components.clone(), values }
     }
@@ -114,7 +114,7 @@ impl Surface {
         let poses = of.vertices.iter().map(Vec::as_slice);
         let mut data = vec![joints.data(poses.clone())];
         if !of.sources.is_empty() {
-            let Cut { robot, window, .. } = joints.cut;
+            let Map { robot, window, .. } = joints.cut.map;
             let components = std::array::from_fn(|k| pose_axis(robot, window, k).label);
             let values = of.sources.iter().map(|pose| triple(pose)).collect();
             data.push(Data { name: "source", components, values });

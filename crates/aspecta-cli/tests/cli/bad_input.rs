@@ -37,6 +37,13 @@ fn missing_or_contradictory_arguments() {
 }
 
 #[test]
+fn choices_of_drawings() {
+    refused("domains 3-rpr --out d --meshes ply,stl", &["invalid value 'stl'", "ply, glb, vtp"]);
+    refused("domains 3-rpr --out d --hold q4", &["invalid value 'q4'", "q1, q2, q3"]);
+    refused("domains 3-rpr --meshes ply", &["--out <DIR>"]);
+}
+
+#[test]
 fn lists_that_are_not_numbers() {
     refused("ik five-bar --pose 1,abc", &["--pose: number 2 of `1,abc`, `abc`, is not a number; write x,y"]);
     refused("ik five-bar --pose 1,,2", &["number 2 of `1,,2`, ``, is not a number"]);

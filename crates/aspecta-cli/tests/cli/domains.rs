@@ -15,7 +15,8 @@ fn pictures_are_written_and_named() {
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())
         .collect();
     names.sort();
-    assert_eq!(names, ["aspect-1-regions.svg", "aspect-1-uniqueness.svg"]);
+    let pictures = ["components", "regions", "sheets", "uniqueness"];
+    assert_eq!(names, pictures.map(|what| format!("aspect-1-{what}.svg")));
     for name in names {
         let line = format!("written: {}", directory.path().join(&name).display());
         assert!(text.lines().any(|l| l == line), "{line}\n{text}");
@@ -24,6 +25,29 @@ fn pictures_are_written_and_named() {
     let output = aspecta(arguments).arg(directory.path()).arg("--json").output().unwrap();
     assert!(serde_json::from_slice::<serde_json::Value>(&output.stdout).is_ok());
     assert!(String::from_utf8_lossy(&output.stderr).contains("written: "));
+}
+
+/// In the formats asked for, and no others.
+#[test]
+fn meshes_are_written_as_asked() {
+    let meshes = |choice: &str| {
+        let directory = tempfile::tempdir().unwrap();
+        let arguments = format!("domains 3-rpr --det + --cells 12 --budget depth=5 {choice} --out");
+        let output = aspecta(&arguments).arg(directory.path()).output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let names = fs::read_dir(directory.path()).unwrap();
+        let names = names.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        let mut meshes: Vec<String> = names.filter(|name| !name.ends_with(".svg")).collect();
+        meshes.sort();
+        let components = fs::read_to_string(directory.path().join("aspect-1-components.svg")).unwrap();
+        (meshes, components)
+    };
+    let (usual, components) = meshes("");
+    assert_eq!(usual, ["aspect-1-boundary.ply", "aspect-1-characteristic.ply", "aspect-1.glb"]);
+    assert!(components.contains(">q₁ [unit]<") && components.contains(">q₃ = "));
+    let (chosen, components) = meshes("--meshes vtp --hold q1");
+    assert_eq!(chosen, ["aspect-1-boundary.vtp", "aspect-1-characteristic.vtp"]);
+    assert!(components.contains(">q₃ [unit]<") && components.contains(">q₁ = "));
 }
 
 /// Before the long work: the depth asked for would take hours.

@@ -2,13 +2,14 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod joints;
 mod maps;
 mod meshes;
 
 use aspecta::aspect::{Analysis, DetSign};
 use aspecta::domain::boundary::Boundary;
 use aspecta::domain::characteristic::Characteristic;
-use aspecta::domain::{DomainOptions, Domains, Mesh, domains};
+use aspecta::domain::{DomainOptions, Domains, Map, MappedAspect, Mesh, domains};
 use aspecta::paving::Control;
 use aspecta::robot::catalogue;
 use aspecta_cli::figure::regions::Cut;
@@ -17,7 +18,7 @@ use std::sync::atomic::AtomicBool;
 
 /// An aspect with all that is drawn of it.
 pub struct Case {
-    analysis: Analysis,
+    map: Map,
     domains: Domains,
     boundary: Mesh,
     surface: Mesh,
@@ -30,7 +31,9 @@ impl Case {
         let domains = domains(&analysis, id, DomainOptions { cells, samples: 1000 }, &control).unwrap();
         let boundary = Boundary::new(&analysis, id, mesh).unwrap();
         let surface = Characteristic::new(&analysis, &boundary).unwrap();
-        Self { analysis, domains, boundary: (&boundary).into(), surface: (&surface).into() }
+        let sheet = MappedAspect { domains: domains.clone(), surfaces: None };
+        let map = Map::new(&analysis, vec![sheet]);
+        Self { map, domains, boundary: (&boundary).into(), surface: (&surface).into() }
     }
 
     fn three_rpr(cells: usize, mesh: usize) -> Self {
@@ -41,7 +44,7 @@ impl Case {
     }
 
     fn cut(&self) -> Cut<'_> {
-        let Self { analysis, domains, boundary, surface } = self;
-        Cut { robot: &analysis.robot, window: &analysis.window, domains, boundary, surface }
+        let Self { map, domains, boundary, surface } = self;
+        Cut { map, domains, boundary, surface }
     }
 }

@@ -18,7 +18,7 @@ fn filled(node: &Node<'_, '_>) -> Option<String> {
 }
 
 /// The colours of the areas of a picture.
-fn areas(svg: &str) -> BTreeSet<String> {
+pub fn areas(svg: &str) -> BTreeSet<String> {
     let document = Document::parse(svg).unwrap();
     document.descendants().filter(|n| n.has_tag_name("path")).filter_map(|n| filled(&n)).collect()
 }
@@ -34,7 +34,7 @@ fn legend(svg: &str) -> BTreeMap<usize, String> {
     document.descendants().filter(|n| n.has_tag_name("text")).filter_map(entry).collect()
 }
 
-fn set<'a>(colours: impl IntoIterator<Item = &'a str>) -> BTreeSet<String> {
+pub fn set<'a>(colours: impl IntoIterator<Item = &'a str>) -> BTreeSet<String> {
     colours.into_iter().map(str::to_owned).collect()
 }
 

@@ -45,7 +45,7 @@ fn triangles_hang_together_across_the_full_turn() {
 #[test]
 fn vertices_know_their_joint_vectors_and_sources() {
     let case = &CASE;
-    let robot = &case.analysis.robot;
+    let robot = &case.map.robot;
     let mode: WorkingMode = case.domains.mode;
     let joints = |pose: &[f64]| robot.inverse_in(pose, mode).unwrap().unwrap();
     let [_, characteristic] = &surfaces().surfaces;

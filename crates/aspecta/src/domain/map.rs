@@ -143,7 +143,7 @@ impl Map {
         location.aspect = self.aspect_of(class, pose);
         let domains = location.aspect.and_then(|aspect| self.domains(aspect));
         location.region =
-            domains.and_then(|domains| domains.region_on(&self.sheet(class, domains.aspect), pose));
+            domains.and_then(|domains| domains.region_on(&self.sheet_in(class, domains.aspect), pose));
         Ok(location)
     }
 
@@ -188,7 +188,13 @@ impl Map {
         along(&self.robot, class.mode, sign, pose, &node[..pose.len()], EFFORT) == Along::Inside
     }
 
-    fn sheet<'a>(&'a self, class: &'a MappedClass, aspect: usize) -> Sheet<'a> {
+    /// The aspect with this [`crate::aspect::Aspect::id`] as a function.
+    pub fn sheet(&self, aspect: usize) -> Option<Sheet<'_>> {
+        let class = self.classes.iter().find(|class| class.aspects.contains(&aspect))?;
+        Some(self.sheet_in(class, aspect))
+    }
+
+    fn sheet_in<'a>(&'a self, class: &'a MappedClass, aspect: usize) -> Sheet<'a> {
         let belongs = (class.aspects.len() > 1)
             .then(|| -> Belongs<'a> { Box::new(move |pose| self.aspect_of(class, pose) == Some(aspect)) });
         Sheet::of(&self.robot, &self.window, (class.mode, class.det_a), belongs)

@@ -91,6 +91,16 @@ impl<'a> Sheet<'a> {
         Some(others)
     }
 
+    /// The poses of the aspect with a joint vector; none where the direct model fails.
+    pub fn poses(&self, joints: &Joints) -> ArrayVec<[f64; 3], 16> {
+        let robot = self.robot;
+        let Ok(poses) = robot.direct_poses(&joints[..robot.dof()]) else { return ArrayVec::new() };
+        let of_aspect = poses
+            .iter()
+            .filter(|pose| self.joints(pose).is_some_and(|found| self.is_posture(pose, &found, joints)));
+        of_aspect.map(|pose| std::array::from_fn(|k| pose.get(k).copied().unwrap_or(0.0))).collect()
+    }
+
     /// Follows the other poses with the joint vectors along a segment from one end to the other: which of `of_b` each of `of_a` becomes.
     ///
     /// They must move continuously: by at most [`Sheet::STRIDE`] cells between points of the segment, 2^`parts` or as many more as it takes, but no
