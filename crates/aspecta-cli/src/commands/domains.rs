@@ -12,10 +12,8 @@ use aspecta::domain::characteristic::{Characteristic, GivenUp};
 use aspecta::domain::{DomainError, DomainOptions, Domains as Found, domains};
 use aspecta::paving::{Budget, Stop};
 use aspecta::robot::Robot;
-use aspecta_cli::domains as figures;
 use aspecta_cli::figure::regions::Cut;
-use aspecta_cli::file;
-
+use aspecta_cli::{domains as figures, file};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 use std::io::Write;
@@ -120,8 +118,9 @@ impl Domains {
             for (domains, (boundary, surface)) in found.iter().zip(&surfaces) {
                 incomplete(surface);
                 let cut = Cut { analysis: &analysis, domains, boundary, surface };
-                for path in figures::write(&cut, &self.drawing.choice(), directory)
-                    .map_err(Failure::in_directory(directory))?
+                let choice = self.drawing.choice();
+                for path in
+                    figures::write(&cut, &choice, directory).map_err(Failure::in_directory(directory))?
                 {
                     let written = path.display();
                     if self.json {
