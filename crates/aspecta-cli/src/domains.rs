@@ -14,11 +14,11 @@ use std::path::{Path, PathBuf};
 /// A format of meshes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Format {
-    /// Polygon File Format, a file a surface
+    /// Polygon File Format, a file for each surface
     Ply,
-    /// Binary glTF 2.0, both surfaces in one file, in colour
+    /// Binary glTF 2.0, both surfaces in one file, coloured by what bounds the aspect
     Glb,
-    /// VTK PolyData, a file a surface, with joint vectors
+    /// VTK PolyData, a file for each surface, with joint vectors
     Vtp,
 }
 

@@ -12,9 +12,8 @@ use aspecta::domain::characteristic::GivenUp;
 use aspecta::domain::{DomainError, Domains as Found, Map, MappedAspect, Surfaces};
 use aspecta::paving::Stop;
 use aspecta::robot::Robot;
-use aspecta_cli::domains as figures;
 use aspecta_cli::figure::regions::Cut;
-use aspecta_cli::file;
+use aspecta_cli::{domains as figures, file};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 use std::io::Write;
@@ -157,9 +156,8 @@ impl Domains {
             };
             incomplete(domains.aspect, *given_up);
             let cut = Cut { map, domains, boundary, surface: characteristic };
-            for path in figures::write(&cut, &self.drawing.choice(), directory)
-                .map_err(Failure::in_directory(directory))?
-            {
+            let choice = self.drawing.choice();
+            for path in figures::write(&cut, &choice, directory).map_err(Failure::in_directory(directory))? {
                 self.written(out, &path)?;
             }
         }

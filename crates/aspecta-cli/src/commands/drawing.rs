@@ -6,7 +6,7 @@ use clap::Args;
 /// Options of pictures and meshes.
 #[derive(Args)]
 pub struct Drawing {
-    /// Formats of the meshes, a list: ply, glb (glTF, both surfaces in one file, in colour), vtp (VTK, with joint vectors)
+    /// Formats of the meshes, separated by commas
     #[arg(long, value_name = "LIST", value_delimiter = ',', requires = "out", default_value = "ply,glb")]
     meshes: Vec<Format>,
     /// The joint that is held in pictures of the joint space of robots with 3 joints

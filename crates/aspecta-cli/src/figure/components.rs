@@ -136,7 +136,7 @@ impl<'a> JointSpace<'a> {
         Grid { x: inner(&self.axes[0]), y: inner(&self.axes[1]), n: pixels - 1 }
     }
 
-    /// The lines in a section on which the number of direct solutions changes, to 2^−[`HALVINGS`] of a pixel.
+    /// The lines in a section on which the number of direct solutions changes, to a thousandth of a pixel.
     pub fn changes(&self, section: &Section, at: f64) -> Vec<Vec<[f64; 2]>> {
         let pixels = section.raster.size().0;
         let count =

@@ -2,10 +2,10 @@
 
 use super::components::{JointSpace, Section};
 use super::legend::Legend;
-use super::maps::{NUMBER, fill};
+use super::maps::fill;
 use super::palette::UNDECIDED;
 use super::raster::Raster;
-use super::regions::{COLUMNS, HEADING, MAP, SLICE, SLICES, draw_surfaces, heading, thin};
+use super::regions::{COLUMNS, HEADING, MAP, SLICE, SLICES, draw_surfaces, heading, number, thin};
 use super::section::Plane;
 use super::slices::Panels;
 use super::svg::{Anchor, Number, Svg};
@@ -13,9 +13,7 @@ use aspecta::domain::OUTSIDE;
 
 /// Width of a component's entry in the legend.
 const ENTRY: f64 = 230.0;
-/// Width of a character of a label, and height of its line, pixels.
-const CHARACTER: f64 = 6.5;
-const ROOM: f64 = 13.0;
+
 /// What the thin lines are.
 pub(super) const CHANGE: &str = "change of n, also at folded legs";
 /// Pixels over which a group of regions lies, but not which, in [`JointSpace::groups`].
@@ -126,21 +124,10 @@ pub fn components(space: &JointSpace<'_>) -> String {
         let groups = space.groups(&section);
         fill(&mut svg, &chart, &groups, |group| space.colour(group));
         draw_surfaces(&mut svg, &chart, &boundary, space.plane(at), &space.changes(&section, at));
-        for (group, corner, side) in groups.squares() {
-            if group >= UNKNOWN {
-                continue;
-            }
-            let members: Vec<usize> = space.hues.members(group as usize).collect();
-            let text = numbers(&members).replace(", ", "·");
-            let pixel = chart.width / groups.size().0 as f64;
-            let room = side as f64 * pixel;
-            if room >= ROOM.max(CHARACTER * text.chars().count() as f64) {
-                let half = 0.5 * side as f64;
-                let x = chart.left + (corner.0 as f64 + half) * pixel;
-                let y = chart.top + chart.height - (corner.1 as f64 + half) * pixel;
-                svg.text([x, y + 4.0], Anchor::Middle, 11.0, NUMBER, &text);
-            }
-        }
+        number(&mut svg, &chart, &groups, |group| {
+            let members = || space.hues.members(group as usize).collect::<Vec<_>>();
+            (group < UNKNOWN).then(|| numbers(&members()).replace(", ", "·"))
+        });
         chart.frame(&mut svg, &space.place(at));
     }
     legend.draw(&mut svg, height + 10.0);

@@ -27,8 +27,9 @@ pub(super) const MAP: f64 = 560.0;
 pub(super) const HEADING: f64 = 20.0;
 /// Width of a region's entry in the legend.
 pub(super) const ENTRY: f64 = 190.0;
-/// Least side of the square in which a region's number stands, pixels.
+/// Least side of the square in which a label stands, and width of a character, pixels.
 const ROOM: f64 = 12.0;
+const CHARACTER: f64 = 6.5;
 pub(super) const CHARACTERISTIC: &str = "fill:none;stroke:#222;stroke-width:0.6;stroke-linejoin:round";
 
 /// What is drawn: an aspect cut into its regions, and the surfaces that bound them.
@@ -116,7 +117,10 @@ fn sheet(
         fill(&mut svg, &chart, &raster, |label| colour(colours, label));
         let inner: Vec<_> = surface.kinds(plane).into_iter().map(|(_, line)| line).collect();
         draw_surfaces(&mut svg, &chart, &boundary, plane, &inner);
-        number(&mut svg, &chart, &raster, domains.regions.len(), is_shown);
+        number(&mut svg, &chart, &raster, |label| {
+            let number = label as usize + 1;
+            (number <= domains.regions.len() && is_shown(number)).then(|| number.to_string())
+        });
         chart.frame(&mut svg, &if in_plane { String::new() } else { place(robot, at) });
     }
     legend.draw(&mut svg, height + 10.0);
@@ -166,24 +170,24 @@ pub(super) fn draw_surfaces(
     draw_lines(svg, chart, &boundary.kinds(plane), boundary.turns);
 }
 
-/// Each region's number in the middle of the largest square of it, if there is room.
-fn number(
+/// The text of each label, if it has one, in the middle of the largest square of it, if there is room.
+pub(super) fn number(
     svg: &mut Svg,
     chart: &Chart,
     raster: &Raster<u32>,
-    regions: usize,
-    is_shown: &dyn Fn(usize) -> bool,
+    text: impl Fn(u32) -> Option<String>,
 ) {
     let pixel = [chart.width / raster.size().0 as f64, chart.height / raster.size().1 as f64];
     for (label, corner, side) in raster.squares() {
-        let number = label as usize + 1;
-        if number > regions || !is_shown(number) || side as f64 * pixel[0].min(pixel[1]) < ROOM {
+        let Some(text) = text(label) else { continue };
+        let room = pixel.map(|pixel| side as f64 * pixel);
+        if room[0] < ROOM.max(CHARACTER * text.chars().count() as f64) || room[1] < ROOM {
             continue;
         }
         let half = 0.5 * side as f64;
         let x = chart.left + (corner.0 as f64 + half) * pixel[0];
         let y = chart.top + chart.height - (corner.1 as f64 + half) * pixel[1];
-        svg.text([x, y + 4.0], Anchor::Middle, 11.0, NUMBER, &number.to_string());
+        svg.text([x, y + 4.0], Anchor::Middle, 11.0, NUMBER, &text);
     }
 }
 
