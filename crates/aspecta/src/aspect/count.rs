@@ -118,6 +118,7 @@ fn fertile(
             }
         }
     }
+    // Per component: its largest piece. One that is alone is the largest.
     let mut largest = BTreeMap::<u32, usize>::new();
     for (k, piece) in pieces.iter().enumerate() {
         let best = largest.entry(piece.component).or_insert(k);
@@ -125,13 +126,12 @@ fn fertile(
             *best = k;
         }
     }
-    let alone = |k: usize| pieces.iter().filter(|p| p.component == pieces[k].component).take(2).count() == 1;
     (0..pieces.len())
         .map(|k| {
             if boxes[k].is_empty() {
                 return false;
             }
-            if largest[&pieces[k].component] == k || boxes[k].len() > SEARCHED || alone(k) {
+            if largest[&pieces[k].component] == k || boxes[k].len() > SEARCHED {
                 return true;
             }
             let mut all = true;
@@ -165,7 +165,7 @@ fn between(
         Components::with_links(atlas.robot, &atlas.sheets, sight, &mut |i, j| links.push((i, j)));
     let in_torn = |i: u32| components.component_of[i as usize].is_some_and(|c| torn.contains(&c));
     links.retain(|&(i, _)| in_torn(i));
-    // The boxes of a piece without a summit are one vertex.
+    // The boxes of a piece are one vertex.
     let mut vertex = UnionFind::new(components.boxes.len());
     let piece = |i: u32| components.piece_of[i as usize];
     let mut first = BTreeMap::<u32, u32>::new();
@@ -174,67 +174,92 @@ fn between(
             vertex.union(*first.entry(p).or_insert(i), i);
         }
     }
-    let mut neighbours = BTreeMap::<u32, Vec<u32>>::new();
-    for &(i, j) in &links {
-        let (a, b) = (vertex.root(i), vertex.root(j));
-        if a != b {
-            neighbours.entry(a).or_default().push(b);
-            neighbours.entry(b).or_default().push(a);
-        }
-    }
-    let mut flood = BTreeMap::<u32, Reached>::new();
+    links.iter_mut().for_each(|(i, j)| (*i, *j) = (vertex.root(*i), vertex.root(*j)));
+    links.retain(|(a, b)| a != b);
+    let mut flood = Flood(vec![None; components.boxes.len()]);
     for (&p, &i) in &first {
         if let Some(p) = label(p) {
-            let (root, colour) = (vertex.root(i), joined.root(p));
-            flood.insert(root, Reached { colour, distance: 0, from: root });
+            let (from, colour) = (vertex.root(i), joined.root(p));
+            flood.0[from as usize] = Some(Reached { colour, distance: 0, from });
         }
     }
-    // Breadth first, but boxes proved inside cost nothing to cross.
-    let mut front: VecDeque<u32> = flood.keys().copied().collect();
-    while let Some(v) = front.pop_front() {
-        let Reached { colour, distance, .. } = flood[&v];
-        for &w in neighbours.get(&v).map_or(&[][..], Vec::as_slice) {
-            let free = piece(w).is_some();
-            let reached = Reached { colour, distance: distance + u32::from(!free), from: v };
-            if flood.get(&w).is_none_or(|known| reached.distance < known.distance) {
-                flood.insert(w, reached);
-                if free { front.push_front(w) } else { front.push_back(w) }
-            }
-        }
-    }
+    flood.run(&links, &|v| piece(v).is_some());
     let mut met = BTreeSet::<u32>::new();
     let mut shortest = BTreeMap::<(u32, u32), (u32, u32, u32)>::new();
-    for &(i, j) in &links {
-        let (a, b) = (vertex.root(i), vertex.root(j));
-        let (Some(from), Some(to)) = (flood.get(&a), flood.get(&b)) else { continue };
+    for &(a, b) in &links {
+        let (Some(from), Some(to)) = (flood.0[a as usize], flood.0[b as usize]) else { continue };
         if from.colour != to.colour {
-            met.extend([i, j]);
+            met.extend([a, b]);
             let pair = (from.colour.min(to.colour), from.colour.max(to.colour));
             let way = (from.distance + to.distance, a, b);
             shortest.entry(pair).and_modify(|least| *least = way.min(*least)).or_insert(way);
         }
     }
     // The shortest way from one to the other: if they are one, it leads there.
-    let mut ways = BTreeSet::new();
-    for (_, a, b) in shortest.into_values() {
-        for mut v in [a, b] {
-            ways.insert(v);
-            while flood[&v].from != v {
-                v = flood[&v].from;
-                ways.insert(v);
-            }
-        }
-    }
+    let ways =
+        shortest.into_values().flat_map(|(_, a, b)| [a, b]).flat_map(|end| flood.way_back(end)).collect();
     let undecided = |boxes: BTreeSet<u32>| {
         boxes.into_iter().filter(|&i| piece(i).is_none()).map(|i| components.boxes[i as usize]).collect()
     };
     Between { front: undecided(met), ways: undecided(ways) }
 }
 
-/// How a box was reached by a flood.
+/// Per vertex, how a flood from several sources at once reached it.
+struct Flood(Vec<Option<Reached>>);
+
 #[derive(Clone, Copy)]
 struct Reached {
     colour: u32,
     distance: u32,
     from: u32,
+}
+
+impl Flood {
+    /// Goes on from what is reached along the links, breadth first; vertices that are `free` cost nothing to cross.
+    fn run(&mut self, links: &[(u32, u32)], is_free: &impl Fn(u32) -> bool) {
+        let neighbours = Neighbours::new(self.0.len(), links);
+        let mut front: VecDeque<u32> = (0..).zip(&self.0).filter_map(|(v, r)| r.map(|_| v)).collect();
+        while let Some(v) = front.pop_front() {
+            let Some(Reached { colour, distance, .. }) = self.0[v as usize] else { continue };
+            for &w in neighbours.of(v) {
+                let free = is_free(w);
+                let reached = Reached { colour, distance: distance + u32::from(!free), from: v };
+                if self.0[w as usize].is_none_or(|known| reached.distance < known.distance) {
+                    self.0[w as usize] = Some(reached);
+                    if free { front.push_front(w) } else { front.push_back(w) }
+                }
+            }
+        }
+    }
+
+    /// The vertices from one back to its source.
+    fn way_back(&self, end: u32) -> impl Iterator<Item = u32> + '_ {
+        let before = |&v: &u32| self.0[v as usize].map(|reached| reached.from).filter(|&from| from != v);
+        std::iter::successors(Some(end), before)
+    }
+}
+
+/// A graph: the neighbours of a vertex, one vertex after the other.
+struct Neighbours {
+    first: Vec<u32>,
+    all: Vec<u32>,
+}
+
+impl Neighbours {
+    fn new(vertices: usize, links: &[(u32, u32)]) -> Self {
+        let mut first = vec![0; vertices + 1];
+        links.iter().flat_map(|&(a, b)| [a, b]).for_each(|v| first[v as usize + 1] += 1);
+        (0..vertices).for_each(|v| first[v + 1] += first[v]);
+        let mut next = first.clone();
+        let mut all = vec![0; 2 * links.len()];
+        for (v, w) in links.iter().flat_map(|&(a, b)| [(a, b), (b, a)]) {
+            all[next[v as usize] as usize] = w;
+            next[v as usize] += 1;
+        }
+        Self { first, all }
+    }
+
+    fn of(&self, v: u32) -> &[u32] {
+        &self.all[self.first[v as usize] as usize..self.first[v as usize + 1] as usize]
+    }
 }
