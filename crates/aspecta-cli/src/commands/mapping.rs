@@ -109,8 +109,11 @@ impl Making {
         let cells = self.cells.map_or(if in_plane { 5 * usual.cells } else { usual.cells }, usize::from);
         let analysis = analyze(robot, &options, control)?;
         let sheet = |id: usize| {
-            let domains = domains(&analysis, id, DomainOptions { cells, ..usual }, control)?;
+            let mut domains = domains(&analysis, id, DomainOptions { cells, ..usual }, control)?;
             let surfaces = with_surfaces.then(|| surfaces(&analysis, id, cells)).transpose()?;
+            if let Some(Surfaces { characteristic, .. }) = &surfaces {
+                domains.measure_disagreements(characteristic, &analysis.window);
+            }
             Ok::<_, Failure>(MappedAspect { domains, surfaces })
         };
         let sheets = wanted(&analysis)?.into_iter().map(sheet).collect::<Result<Vec<_>, Failure>>()?;

@@ -98,6 +98,15 @@ fn checks(out: &mut dyn Write, robot: &Robot, found: &Domains) -> Result<(), Fai
         "\nchecked: {} of {} random poses away from the surfaces have as many direct solutions as their region",
         agreement.agree, agreement.away
     )?;
+    let apart = agreement.disagreements.iter().filter_map(|found| found.distance).reduce(f64::max);
+    if let Some(apart) = apart {
+        writeln!(
+            out,
+            "the {} others are at most {} cells from the characteristic surface",
+            agreement.disagreements.len(),
+            brief(apart)
+        )?;
+    }
     for c in found.coincidences.iter().filter(|c| c.shares.0.min(c.shares.1) < WHOLE).take(LISTED) {
         let ((a, b), (in_b, in_a)) = (c.regions, c.shares);
         writeln!(

@@ -188,7 +188,7 @@ fn agreement(sheet: &Sheet<'_>, partition: &Partition, regions: &[Region], sampl
             agreement.agree += 1;
         } else {
             let (pose, region) = (pose.to_vec(), region as usize + 1);
-            agreement.disagreements.push(Disagreement { pose, region, solutions: count });
+            agreement.disagreements.push(Disagreement { pose, region, solutions: count, distance: None });
         }
     }
     agreement

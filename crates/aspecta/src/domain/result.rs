@@ -1,10 +1,12 @@
 //! The partition of an aspect as plain values.
 
 use super::labels::Labels;
+use super::mesh::Mesh;
 use super::sheet::Sheet;
 use crate::aspect::{Analysis, DetSign, Measure};
 use crate::kinematics::WorkingMode;
-use crate::robot::Platform;
+use crate::num::without_turns;
+use crate::robot::{Platform, Window};
 use serde::{Deserialize, Serialize};
 
 /// How finely an aspect is partitioned.
@@ -107,6 +109,22 @@ impl Domains {
         self.regions.get(region as usize).map(|found| found.number)
     }
 
+    /// Finds out how far from the characteristic surfaces partition and direct model disagree: within a cell or two it is the grid that is
+    /// too coarse.
+    pub fn measure_disagreements(&mut self, surfaces: &Mesh, window: &Window) {
+        let apart = |pose: &[f64], vertex: &[f64]| {
+            let part = |k: usize| {
+                let gap = pose[k] - vertex[k];
+                (if window.glued[k] { without_turns(gap) } else { gap }).abs() / self.cell[k]
+            };
+            (0..pose.len()).map(part).fold(0.0, f64::max)
+        };
+        for found in &mut self.agreement.disagreements {
+            found.distance =
+                surfaces.vertices.iter().map(|vertex| apart(&found.pose, vertex)).reduce(f64::min);
+        }
+    }
+
     /// Whether the images of two basic regions (by number) meet: then their basic components coincide.
     pub fn coincide(&self, a: usize, b: usize) -> bool {
         self.coincidences.iter().any(|c| c.regions == (a.min(b), a.max(b)))
@@ -191,4 +209,7 @@ pub struct Disagreement {
     pub region: usize,
     /// Direct solutions in the aspect.
     pub solutions: u8,
+    /// How far it is from the nearest vertex of the characteristic surfaces, in cells, coordinate by coordinate; `None` until
+    /// [`Domains::measure_disagreements`].
+    pub distance: Option<f64>,
 }
