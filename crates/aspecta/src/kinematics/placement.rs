@@ -1,6 +1,6 @@
 //! Where the platform puts the attachment points, and how a force at one acts on the platform.
 
-use crate::num::{Jet, Scalar, dot_constant, each};
+use crate::num::{Jet, Scalar, dot, dot_constant, each};
 use crate::robot::{Leg, Platform};
 
 /// The platform's frame in the base: C_i = origin + rotation · c_i.
@@ -41,6 +41,30 @@ impl<T: Scalar, const D: usize> Placement<T, D> {
             Some(_) => span[k] + T::constant(leg.anchor[k]) - arm[k],
         });
         placement
+    }
+
+    /// The placement displaced by `z`: moved by its translations and then, about its own origin, turned by
+    /// R_z R_y R_x of its angles (by the angle, in the plane) in the axes of the base. `turn[k]` holds (sin, cos) of the angle z_k. Near z = 0 these
+    /// are coordinates of the poses without any singularity; see [`displacement_row`].
+    pub fn displaced<const N: usize>(&self, platform: Platform, z: &[T; N], turn: &[(T, T); N]) -> Self {
+        let Self { origin, rotation } = Self::new(platform, z, |k| turn[k]);
+        let rotation = match (&rotation, &self.rotation) {
+            (Some(by), Some(from)) => {
+                let column = |j: usize| -> [T; D] { each!(|k| from[k][j]) };
+                let mut product = *from;
+                for i in 0..D {
+                    product[i] = each!(|j| dot(&by[i], &column(j)));
+                }
+                Some(product)
+            }
+            _ => None,
+        };
+        Self { origin: each!(|k| self.origin[k] + origin[k]), rotation }
+    }
+
+    /// R, in space.
+    pub fn rotation(&self) -> Option<&[[T; D]; D]> {
+        self.rotation.as_ref()
     }
 
     /// Where the platform's own origin is.
@@ -137,13 +161,47 @@ pub fn wrench<T: Scalar, const D: usize, const N: usize>(
     row
 }
 
+/// The derivatives with respect to the coordinates z of [`Placement::displaced`], from the derivatives `row` with respect to
+/// translations and the angular velocity ([`wrench`]), at the displacement whose angles have the (sin, cos) `turn`.
+///
+/// R_z R_y R_x at rates ż turns with ω = R_z R_y e_x ż_x + R_z e_y ż_y + e_z ż_z.
+pub fn displacement_row<T: Scalar, const N: usize>(
+    platform: Platform,
+    row: &[T; N],
+    turn: &[(T, T); N],
+) -> [T; N] {
+    let mut rates = *row;
+    if matches!(platform, Platform::TurningBody | Platform::FreeBody) {
+        let (x, y, z) = (N - 3, N - 2, N - 1);
+        let ((sin_y, cos_y), (sin_z, cos_z)) = (turn[y], turn[z]);
+        rates[x] = (row[x] * cos_z + row[y] * sin_z) * cos_y - row[z] * sin_y;
+        rates[y] = row[y] * cos_z - row[x] * sin_z;
+    }
+    rates
+}
+
 /// ∂f/∂C in the base frame and ∂f/∂q of one leg, by differentiating its equation.
 pub fn leg_gradient<T: Scalar, const D: usize>(leg: &Leg, d: &[T; D], q: T) -> (T, [T; D], T) {
+    leg_gradient_turned(leg, d, q, || q.sin_cos())
+}
+
+/// [`leg_gradient`] with (sin q, cos q) from `turn`, which is asked only where q is an angle.
+#[inline]
+pub fn leg_gradient_turned<T: Scalar, const D: usize>(
+    leg: &Leg,
+    d: &[T; D],
+    q: T,
+    turn: impl FnOnce() -> (T, T),
+) -> (T, [T; D], T) {
     // Four variables: up to three components of d, and q last.
     let variable = |x: T, k: usize| Jet::<T, 4>::variable(x, k);
-    let jets: [Jet<T, 4>; D] = std::array::from_fn(|k| variable(d[k], k));
-    let f = super::leg::equation(&leg.actuator, &jets, variable(q, 3));
-    let local: [T; D] = std::array::from_fn(|k| f.gradient[k]);
+    let jets: [Jet<T, 4>; D] = each!(|k| variable(d[k], k));
+    let q = variable(q, 3);
+    let f = super::leg::equation_turned(&leg.actuator, &jets, q, || {
+        let (sin, cos) = turn();
+        (q.chain(sin, cos), q.chain(cos, -sin))
+    });
+    let local: [T; D] = each!(|k| f.gradient[k]);
     (f.value, out_of_frame(leg, &local), f.gradient[3])
 }
 
