@@ -147,15 +147,6 @@ impl Interval {
         Self::new(low, high)
     }
 
-    /// (sin, cos) without calling either, tight for small angles: for every real z
-    /// sin z ∈ z · [1 − z²/6, 1] ⊂ z · [1 − z²/4, 1] and cos z ∈ [1 − z²/2, 1].
-    pub fn small_sin_cos(self) -> (Self, Self) {
-        let most = Self::point(self.magnitude()).square().hi;
-        // A quarter for a sixth: powers of two scale without rounding.
-        let (sine, cosine) = (down(1.0 - 0.25 * most), down(1.0 - 0.5 * most));
-        (self * Self { lo: sine, hi: 1.0 }, Self { lo: cosine.max(-1.0), hi: 1.0 })
-    }
-
     /// The angle of the vectors (c, s), c ∈ `c`, s ∈ `s`, in radians: an interval of width < 2π that
     /// starts in [−π, π], or `None` if the vector may vanish or its direction may be anything.
     pub fn angle(c: Self, s: Self) -> Option<Self> {
@@ -332,18 +323,6 @@ mod tests {
         assert!(c.contains(0.0) && c.width() < 0.11);
         assert_eq!(Interval::new(3.0, 3.2).sin_cos().1.lo, -1.0);
         assert!(Interval::new(-0.1, 0.1).sin_cos().0.hi < 0.1);
-    }
-
-    proptest! {
-        #[test]
-        fn small_angles(x in -4.0..4.0f64, scale in 0..12, w in 0.0..1.0f64, t in 0.0..=1.0f64) {
-            let x = x * 10f64.powi(-scale);
-            let z = Interval::new(x, x + w * x.abs());
-            let p = (x + t * w * x.abs()).min(z.hi);
-            let (sin, cos) = z.small_sin_cos();
-            let (s, c) = Interval::point(p).sin_cos();
-            prop_assert!(sin.lo <= s.lo && s.hi <= sin.hi && cos.lo <= c.lo && c.hi <= cos.hi);
-        }
     }
 
     #[test]

@@ -16,6 +16,8 @@ use nalgebra::SMatrix;
 pub struct Follower {
     robot: Robot,
     limited: bool,
+    /// What makes a displacement a number of order one.
+    unit: Padded,
     state: State,
 }
 
@@ -66,9 +68,14 @@ impl Follower {
         if let Some(j) = short_strut(robot, q) {
             return Err(KinematicsError::StrutLength { leg: j + 1, value: q[j] }.into());
         }
-        let state = for_platform!(robot.platform, start(robot, pose, q)).ok_or(StartError::NoSolution)?;
+        let length = robot.characteristic_length();
+        let mut unit = [1.0; 6];
+        let coordinates = robot.platform.coordinates().iter();
+        unit.iter_mut().zip(coordinates).filter(|(_, c)| !c.angle).for_each(|(unit, _)| *unit = length);
+        let state =
+            for_platform!(robot.platform, start(robot, &unit, pose, q)).ok_or(StartError::NoSolution)?;
         let limited = robot.legs.iter().any(|leg| !leg.limits.is_empty());
-        Ok(Self { robot: robot.clone(), limited, state })
+        Ok(Self { robot: robot.clone(), limited, unit, state })
     }
 
     /// The robot.
@@ -119,24 +126,31 @@ fn short_strut(robot: &Robot, q: &[f64]) -> Option<usize> {
     robot.legs.iter().zip(q).position(|(leg, q)| leg.actuator == Actuator::Strut && *q <= 0.0)
 }
 
-fn start<const D: usize, const N: usize>(robot: &Robot, pose: &[f64], q: &[f64]) -> Option<State> {
-    let model = Model::<D, N>::new(robot);
+fn start<const D: usize, const N: usize>(
+    robot: &Robot,
+    unit: &Padded,
+    pose: &[f64],
+    q: &[f64],
+) -> Option<State> {
+    let model = Model::<D, N>::new(robot, unit);
     let (pose, q) = (unpadded(&padded(pose)), unpadded(&padded(q)));
     let inverse = model.linearised(&pose, &q, &plain(&model.turns(&q))).1.try_inverse()?;
-    let given = Located { pose, q, radius: 0.0, inverse };
-    let proof = model.prove(&given, &q, &[0.0; N])?;
+    let proof = model.prove_alone(&Located { pose, q, radius: 0.0, inverse })?;
     Some(State::of(&proof.end, model.mode(&proof)))
 }
 
 fn advance<const D: usize, const N: usize>(follower: &mut Follower, q: &[f64]) -> Result<Step, Refusal> {
-    let model = Model::<D, N>::new(&follower.robot);
+    let model = Model::<D, N>::new(&follower.robot, &follower.unit);
     let start = follower.state.located::<N>();
     let goal = unpadded::<N>(&padded(q));
     // What rounding may move the joint vectors between stretches by: at most 2.5 ε max |q|.
     let slack: [f64; N] = std::array::from_fn(|j| 4.0 * f64::EPSILON * start.q[j].abs().max(goal[j].abs()));
     let (mut last, mut mode, mut mode_kept) = (start, follower.state.mode, true);
+    let mut careful = false;
     let (proved, stretches) = in_stretches(|to| {
-        let Some(proof) = model.prove(&last, &between(&start.q, &goal, to), &slack) else { return false };
+        let proof = model.prove(&last, &between(&start.q, &goal, to), &slack, careful);
+        careful = true;
+        let Some(proof) = proof else { return false };
         mode_kept &= !proof.signs.contains(&0);
         mode = model.mode(&proof);
         last = proof.end;

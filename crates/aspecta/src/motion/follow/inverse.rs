@@ -103,21 +103,22 @@ fn advance<const D: usize, const N: usize>(
     let segment = Segment { start: unpadded::<N>(&follower.pose), goal: unpadded(&padded(pose)) };
     let mut q = unpadded::<N>(&follower.q);
     let (mut from, mut regular, mut open) = (0.0, true, 0);
-    let (proved, stretches) = in_stretches(|to| match stretch::<D, N>(robot, mode, &segment.stretch(from, to)) {
-        Err(leg) => {
-            open = leg;
-            false
-        }
-        Ok(kept) => {
-            let next = joints::<D, N>(robot, mode, &segment.at(to));
-            for (j, leg) in robot.legs.iter().enumerate().take(N) {
-                let turning = leg.actuator.is_angle();
-                q[j] = if turning { q[j] + without_turns(next[j] - q[j]) } else { next[j] };
+    let (proved, stretches) =
+        in_stretches(|to| match stretch::<D, N>(robot, mode, &segment.stretch(from, to)) {
+            Err(leg) => {
+                open = leg;
+                false
             }
-            (from, regular) = (to, regular && kept);
-            true
-        }
-    });
+            Ok(kept) => {
+                let next = joints::<D, N>(robot, mode, &segment.at(to));
+                for (j, leg) in robot.legs.iter().enumerate().take(N) {
+                    let turning = leg.actuator.is_angle();
+                    q[j] = if turning { q[j] + without_turns(next[j] - q[j]) } else { next[j] };
+                }
+                (from, regular) = (to, regular && kept);
+                true
+            }
+        });
     if proved < 1.0 {
         return Err(refusal::<D, N>(robot, &segment, open, proved));
     }
@@ -208,7 +209,7 @@ fn refusal<const D: usize, const N: usize>(
     let distance = (here.max(0.0) / most).sqrt();
     let rate = (reach(proved + APART) - here) / APART;
     let singular_at = proved - here / rate;
-    if singular_at >= proved && singular_at <= 1.0 {
+    if singular_at >= proved && singular_at <= proved + 1.0 {
         Refusal::Serial { leg: leg + 1, proved, singular_at, distance }
     } else {
         Refusal::TooLong { proved, distance }

@@ -19,17 +19,21 @@ impl<const D: usize, const N: usize> Model<'_, D, N> {
             return WorkingMode::from_signs(proof.signs.iter().map(|s| *s > 0));
         }
         let b = self.slopes(&proof.end.pose, &proof.end.q);
-        WorkingMode::from_signs((0..N).map(|j| if proof.signs[j] == 0 { b[j] > 0.0 } else { proof.signs[j] > 0 }))
+        WorkingMode::from_signs(
+            (0..N).map(|j| if proof.signs[j] == 0 { b[j] > 0.0 } else { proof.signs[j] > 0 }),
+        )
     }
 
     /// Why there is no proof beyond `last`, which lies at t = `proved` of the way from `start` to `goal`.
+    ///
+    /// The singularity is named if it seems to lie within the step, or one more like it.
     ///
     /// At a parallel singularity two solutions meet like the roots ±√(t* − t): there det A² goes to zero linearly.
     pub fn refusal(&self, last: &Located<N>, start: &[f64; N], goal: &[f64; N], proved: f64) -> Refusal {
         let distance = self.parallel_measure(last);
         let (det, rate) = self.det_and_rate(last, start, goal);
         let singular_at = proved - 0.5 * det / rate;
-        if singular_at > proved && singular_at <= 1.0 {
+        if singular_at > proved && singular_at <= proved + 1.0 {
             Refusal::Parallel { proved, singular_at, distance }
         } else {
             Refusal::TooLong { proved, distance }

@@ -1,8 +1,8 @@
 //! The pose at the new joint vector, in doubles: what the certificate then judges.
 
 use super::tube::{Model, Turn};
-use crate::kinematics::placement::{Placement, leg_gradient_turned, wrench};
 use crate::kinematics::leg::equation_turned;
+use crate::kinematics::placement::{Placement, leg_gradient_turned, wrench};
 use crate::robot::Platform;
 use nalgebra::{SMatrix, SVector};
 
