@@ -53,15 +53,14 @@ const PLANAR_AND_DELTA: [&str; 7] =
     ["five-bar", "symmetric-five-bar", "2-prr", "3-rrr", "3-prr", "3-rpr", "delta"];
 const OTHERS: [&str; 5] = ["linear-delta", "orthoglide", "spherical-3-rrr", "hexa", "gough-stewart"];
 
-/// Paths within an aspect are followed all the way: at most one step in 10⁴ is refused, where a path comes close to
-/// a singularity.
-fn check(names: &[&str], wanted: usize) {
+/// Paths within an aspect are followed all the way, but for at most `refused` of all steps, where one comes close to a singularity.
+fn check(names: &[&str], wanted: usize, refused: f64) {
     std::thread::scope(|scope| {
         for (k, name) in names.iter().enumerate() {
             scope.spawn(move || {
                 let tally = follow(&robot(name), wanted, 17 + k as u64);
                 println!("{name}: {tally:?}");
-                assert!(tally.refused * 10_000 <= tally.steps, "{name}: {tally:?}");
+                assert!(tally.refused as f64 <= refused * tally.steps as f64, "{name}: {tally:?}");
             });
         }
     });
@@ -69,16 +68,17 @@ fn check(names: &[&str], wanted: usize) {
 
 #[test]
 fn never_a_wrong_branch() {
-    check(&PLANAR_AND_DELTA, 20_000);
-    check(&OTHERS, 4_000);
+    check(&PLANAR_AND_DELTA, 20_000, 0.0);
+    check(&OTHERS, 4_000, 1e-3);
 }
 
-/// The same, a million steps in each planar robot and the Delta: `cargo test --release --test follow -- --ignored --nocapture`.
+/// The same, a million steps in each planar robot and the Delta:
+/// `cargo test --release -p aspecta --test follow -- --ignored --nocapture`.
 #[test]
 #[ignore = "half a minute"]
 fn never_a_wrong_branch_in_a_million_steps() {
-    check(&PLANAR_AND_DELTA, 1_000_000);
-    check(&OTHERS, 200_000);
+    check(&PLANAR_AND_DELTA, 1_000_000, 0.0);
+    check(&OTHERS, 200_000, 1e-3);
 }
 
 /// Every pitch is as good as any other: the coordinates of the proof have no singularity.

@@ -43,8 +43,10 @@ pub struct Step {
     pub mode_kept: bool,
     /// Whether every joint is within its limits at the end. Numerical.
     pub within_limits: bool,
-    /// A proved bound of |X − X exact|: multiply by the characteristic length for translations; radians for rotations.
-    pub error: f64,
+    /// A proved bound of the error of each translation of `pose`, in the robot's unit.
+    pub length_error: f64,
+    /// A proved bound of the rotation, about each axis, by which the orientation of `pose` is off; rad.
+    pub angle_error: f64,
     /// Stretches that were tried: 1 where the step was proved at once.
     pub stretches: u32,
 }
@@ -161,8 +163,17 @@ fn advance<const D: usize, const N: usize>(follower: &mut Follower, q: &[f64]) -
     }
     let within_limits = !follower.limited || direct::within_limits::<D>(&follower.robot, &last.pose, mode);
     follower.state = State::of(&last, mode);
-    let pose = follower.state.pose;
-    Ok(Step { pose, dof: N, mode, mode_kept, within_limits, error: last.radius, stretches })
+    let [length_error, angle_error] = model.errors(&last);
+    Ok(Step {
+        pose: follower.state.pose,
+        dof: N,
+        mode,
+        mode_kept,
+        within_limits,
+        length_error,
+        angle_error,
+        stretches,
+    })
 }
 
 /// q₀ + t (q₁ − q₀), exactly q₁ at t = 1.

@@ -1,9 +1,11 @@
 //! Why a step is refused, without allocating.
 
 use crate::kinematics::KinematicsError;
+use serde::Serialize;
 
 /// A vector that does not fit the robot.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, thiserror::Error)]
+#[serde(rename_all = "kebab-case")]
 pub enum BadInput {
     /// Wrong number of coordinates.
     #[error("{found} numbers given, but the robot has {wanted} coordinates")]
@@ -34,7 +36,8 @@ pub enum BadInput {
 /// Why a step is refused. The follower stays at its last state.
 ///
 /// `proved` is the part of the step, t ∈ [0, 1), up to which the motion is certified. What else is said is *numerical*.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, thiserror::Error)]
+#[serde(tag = "reason", rename_all = "kebab-case")]
 pub enum Refusal {
     /// The numbers cannot be used.
     #[error(transparent)]

@@ -190,6 +190,15 @@ impl<'a, const D: usize, const N: usize> Model<'a, D, N> {
         Placement::new(self.robot.platform, &x, |k| turn_of(pose[k]))
     }
 
+    /// Bounds of the errors of lengths and of angles, 0 where there are none.
+    pub fn errors(&self, at: &Located<N>) -> [f64; 2] {
+        let mut errors = [0.0; 2];
+        for (coordinate, unit) in self.robot.platform.coordinates().iter().zip(&self.unit) {
+            errors[usize::from(coordinate.angle)] = above(at.radius * unit);
+        }
+        errors
+    }
+
     /// ‖z‖, rounded up.
     fn size(&self, z: &[Ball; N]) -> f64 {
         let mut most = 0.0;
