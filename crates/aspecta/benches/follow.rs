@@ -50,6 +50,12 @@ fn follow(c: &mut Criterion) {
                 direct.step(black_box(&joints[i])).expect("a path without singularities")
             })
         });
+        // The dearest: a jump that is tried in all stretches and refused.
+        let jump: Vec<f64> =
+            joints[0].iter().enumerate().map(|(k, q)| q * (1.0 + 0.3 * (k as f64 - 0.7))).collect();
+        if direct.step(&jump).is_err() {
+            c.bench_function(&format!("{name}/refused jump"), |b| b.iter(|| direct.step(black_box(&jump))));
+        }
         let mut i = STEPS - 1;
         let mut inverse = InverseFollower::new(&robot, &poses[0], mode).expect("a start");
         c.bench_function(&format!("{name}/inverse step"), |b| {

@@ -62,7 +62,19 @@ impl<T: Scalar, const D: usize> Placement<T, D> {
         Self { origin: each!(|k| self.origin[k] + origin[k]), rotation }
     }
 
-    /// R, in space.
+    /// The same placement in another scalar.
+    pub fn map<U: Scalar>(&self, to: impl Fn(T) -> U) -> Placement<U, D> {
+        let rotation = self.rotation.as_ref().map(|rows| {
+            let mut all = [[U::zero(); D]; D];
+            for i in 0..D {
+                all[i] = each!(|k| to(rows[i][k]));
+            }
+            all
+        });
+        Placement { origin: each!(|k| to(self.origin[k])), rotation }
+    }
+
+    /// R; `None` for platforms that do not turn.
     pub fn rotation(&self) -> Option<&[[T; D]; D]> {
         self.rotation.as_ref()
     }

@@ -64,6 +64,12 @@ impl Ball {
         Self::rounded(mid, mid.abs() + self.rad)
     }
 
+    /// The narrower one of two that hold the same number.
+    #[inline(always)]
+    pub fn narrower(self, other: Self) -> Self {
+        if other.rad < self.rad { other } else { self }
+    }
+
     /// Whether all of it lies in `other`.
     #[inline(always)]
     pub fn lies_in(self, other: Self) -> bool {

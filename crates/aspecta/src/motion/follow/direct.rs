@@ -103,8 +103,8 @@ impl Follower {
     /// Goes on to the joint vector `q`. The pose returned is proved to be where the solution curve of the straight segment
     /// from the last joint vector to `q` ends; the curve exists, is unique, and meets no parallel singularity.
     ///
-    /// At most 64 stretches are tried, each one Newton iteration and one evaluation of the equations in intervals. Nothing is
-    /// allocated.
+    /// At most 64 stretches are tried, each by a Newton iteration and one evaluation of the equations and their derivatives over
+    /// enclosures. Nothing is allocated.
     ///
     /// # Errors
     /// [`Refusal`]; the state is then as before.
@@ -150,9 +150,10 @@ fn advance<const D: usize, const N: usize>(follower: &mut Follower, q: &[f64]) -
     let (mut last, mut mode, mut mode_kept) = (start, follower.state.mode, true);
     let mut careful = false;
     let (proved, stretches) = in_stretches(|to| {
-        let proof = model.prove(&last, &between(&start.q, &goal, to), &slack, careful);
-        careful = true;
-        let Some(proof) = proof else { return false };
+        let q = between(&start.q, &goal, to);
+        let quick = if careful { None } else { model.prove(&last, &q, &slack) };
+        careful = quick.is_none();
+        let Some(proof) = quick.or_else(|| model.prove_carefully(&last, &q, &slack)) else { return false };
         mode_kept &= !proof.signs.contains(&0);
         mode = model.mode(&proof);
         last = proof.end;

@@ -8,30 +8,33 @@
 //! # The theorem behind a direct step
 //!
 //! f(X, q) = 0 are the leg equations, X = X₁ ⊞ z the poses near the new pose X₁, z ∈ Rⁿ coordinates without singularity
-//! ([`Placement::displaced`](crate::kinematics::placement::Placement::displaced)). Along the stretch from q₀ to q₁ let
+//! ([`Placement::displaced`](crate::kinematics::placement::Placement::displaced)). For a stretch from q₀ to q₁ let
 //!
-//! > q(t) = q₁ + (1 − t)(q₀ − q₁), c(t) = (1 − t) s, t ∈ [0, 1],
+//! > q(t) = q₁ + (1 − t)(q₀ − q₁), c(t) = (1 − t) s, 0 ≤ t ≤ 1,
 //!
-//! s ≈ the z of the old pose. B is a box of z, Q the hull of both joint vectors; \[A\] and \[b\] enclose ∂f/∂z and the diagonal of ∂f/∂q
-//! over B × Q; Y is any matrix, ‖·‖ a weighted maximum norm. Let
+//! s ≈ the z of the old pose. The tube 𝒯 holds all (z, q) with ‖z − c(t)‖ ≤ ρ and |q − q(t)| ≤ e for some t, e being what rounding may move
+//! joint vectors by and ‖·‖ a weighted maximum norm. \[A\] and \[b\] enclose ∂f/∂z and the diagonal of ∂f/∂q over 𝒯, Y is any matrix. Let
 //!
-//! > κ ≥ ‖I − Y\[A\]‖, η ≥ ‖Y (f(X₁, q₁) + \[0, 1\] (\[A\] s + \[b\](q₀ − q₁)) + \[b\] e)‖, e ∋ 0 what rounding moves q(t) by.
+//! > κ ≥ ‖I − Y\[A\]‖, η ≥ ‖Y f(c(t), q)‖ for all t and all |q − q(t)| ≤ e.
 //!
-//! *Theorem.* Let κ < 1, r = η/(1 − κ), and let B hold the tube ‖z − c(t)‖ ≤ r, t ∈ [0, 1]. Then for every t and every q ∈ q(t) + e
-//! the equations f(·, q) = 0 have exactly one solution in B; it lies in the tube, depends continuously on q, and A is regular there and
-//! on all of B × Q. At q₁ it lies within ‖Y f(X₁, q₁)‖/(1 − κ) of X₁.
+//! *Theorem.* Let κ < 1 and η ≤ (1 − κ) ρ. Then for every t and every such q the equations f(·, q) = 0 have exactly one solution with ‖z − c(t)‖ ≤ ρ; it
+//! depends continuously on q, and A is regular on all of 𝒯. At q₁ it lies within ‖Y f(X₁, q₁)‖/(1 − κ) of X₁.
 //!
-//! *Proof.* By the mean-value theorem, row by row along the line, f(c(t), q) lies in the bracket of η. The map z ↦ z − Y f(z, q) contracts B by κ, and so maps the ball of
-//! radius r round c(t) into itself: its one fixed point there is a zero, since Y and all matrices of \[A\] are regular
-//! (‖I − YA‖ < 1). Two zeros z, z′ in B would give 0 = f(z) − f(z′) = A′(z − z′) with A′ ∈ \[A\] regular. Continuity is the implicit function
-//! theorem; the last bound is that of the contraction, started at z = 0. ∎
+//! *Proof.* A ball is convex, so N(z) = z − Y f(z, q) differs at two of its points by (I − Y Ā) times their difference, Ā a mean of matrices of \[A\]: N contracts by
+//! κ. ‖N(z) − c(t)‖ ≤ κρ + η ≤ ρ, so N maps the ball into itself and has one fixed point there. Y and all matrices of
+//! \[A\] are regular since ‖I − YA‖ < 1, so the fixed points are the zeros, and by the implicit function theorem
+//! they depend continuously on q. The last bound is that of the contraction at t = 1, from z = 0. ∎
 //!
-//! *The same branch.* If the solution at q₀ lies in B it is that one, so the solution curve that starts there ends at the one at q₁, and meets no parallel
-//! singularity. The bound of one step is what the next needs to know of its start. A step that cannot be proved at once is cut into stretches, whose
-//! curves fit together: on the common part of two neighbourhoods of q, which is convex, both continuous solutions agree at one point, hence
-//! everywhere. Robot constants are intervals, so all this holds for every robot within them.
+//! η comes from f(X₁, q₁) and the integral of \[A\] s + \[b\](q₀ − q₁) along the line (c, q) from t = 1, plus \[b\] e.
 //!
-//! If, besides, no \[b_j\] holds zero, no leg meets a serial singularity: the configuration stays in its generalized aspect.
+//! *The same branch.* If the solution at q₀ lies in the ball at t = 0 it is the one found there: the solution curve that starts with it stays in
+//! the tube, ends at the solution at q₁, and meets no parallel singularity. The bound at q₁ is what the next stretch has to
+//! hold in its first ball. A step is cut into stretches where need be. Their q are doubles next to the straight segment, but e covers it, and
+//! the curves fit together: the joint vectors that two stretches share are the common part of two convex sets, hence connected, and
+//! two continuous solutions that agree at one of them, both locally unique, agree at all. Robot
+//! constants are enclosed, so all this holds for every robot within them.
+//!
+//! If, besides, no \[b_j\] holds zero, no leg meets a serial singularity: the configuration stays in its generalized aspect, limits apart.
 //!
 //! # The inverse step
 //!
@@ -53,7 +56,7 @@ pub use refusal::{BadInput, Refusal, StartError};
 use crate::robot::Robot;
 
 /// Stretches tried before a step is refused: what bounds the work of a step.
-const MOST_STRETCHES: usize = 64;
+const MOST_STRETCHES: u32 = 64;
 /// Shorter stretches, as a share of the step, are not tried.
 const SHORTEST: f64 = 1.0 / (1 << 20) as f64;
 
@@ -76,8 +79,7 @@ fn check_numbers(robot: &Robot, values: &[f64]) -> Result<(), BadInput> {
     if values.len() != wanted {
         return Err(BadInput::Length { wanted, found: values.len() });
     }
-    // A comparison that is false for NaN too.
-    match values.iter().position(|x| !(x.abs() <= 1e7)) {
+    match values.iter().position(|x| x.is_nan() || x.abs() > 1e7) {
         Some(k) => Err(BadInput::Number { index: k + 1, value: values[k] }),
         None => Ok(()),
     }
@@ -87,7 +89,7 @@ fn check_numbers(robot: &Robot, values: &[f64]) -> Result<(), BadInput> {
 /// what succeeds. Returns the t reached; 1 is all of it.
 fn in_stretches(mut prove: impl FnMut(f64) -> bool) -> (f64, u32) {
     let (mut reached, mut length) = (0.0, 1.0);
-    for tried in 1..=MOST_STRETCHES as u32 {
+    for tried in 1..=MOST_STRETCHES {
         let to = if reached + length < 1.0 { reached + length } else { 1.0 };
         if prove(to) {
             reached = to;
@@ -102,5 +104,5 @@ fn in_stretches(mut prove: impl FnMut(f64) -> bool) -> (f64, u32) {
             }
         }
     }
-    (reached, MOST_STRETCHES as u32)
+    (reached, MOST_STRETCHES)
 }
