@@ -1,6 +1,6 @@
 //! Where the platform puts the attachment points, and how a force at one acts on the platform.
 
-use crate::num::{Jet, Scalar, dot, dot_constant, each};
+use crate::num::{Interval, Jet, Scalar, dot, dot_constant, each};
 use crate::robot::{Leg, Platform};
 
 /// The platform's frame in the base: C_i = origin + rotation · c_i.
@@ -95,7 +95,7 @@ impl<T: Scalar, const D: usize> Placement<T, D> {
     }
 
     /// A vector fixed in the platform, in the base frame.
-    pub fn turned(&self, v: &[crate::num::Interval; 3]) -> [T; D] {
+    pub fn turned(&self, v: &[Interval; 3]) -> [T; D] {
         match &self.rotation {
             None => each!(|k| T::constant(v[k])),
             Some(r) => each!(|k| dot_constant(&v[..D], &r[k])),
@@ -107,12 +107,17 @@ impl<T: Scalar, const D: usize> Placement<T, D> {
         let d: [T; D] = each!(|k| {
             // Constants first: for a platform that does not turn, arm and anchor are both constants.
             match self.rotation {
-                None => self.origin[k] - T::constant(leg.anchor[k] - leg.attachment[k]),
+                None => self.origin[k] - T::constant(offset(leg, k)),
                 Some(_) => (self.origin[k] + arm[k] - T::constant(leg.anchor[k])).tightened(),
             }
         });
         into_frame(leg, &d)
     }
+}
+
+/// A − c. A point platform has c = 0, which costs nothing; 0 − 0, rounded outward, would be subnormal and slow.
+fn offset(leg: &Leg, k: usize) -> Interval {
+    if leg.attachment[k] == Interval::point(0.0) { leg.anchor[k] } else { leg.anchor[k] - leg.attachment[k] }
 }
 
 /// R = R_z(yaw) R_y(pitch) R_x(roll), roll being coordinate `first`.
@@ -241,7 +246,7 @@ pub fn cofactors<T: Scalar, const N: usize>(m: &[[T; N]; N]) -> [[T; N]; N] {
                 _ => {
                     let mut replaced = *m;
                     replaced[j] = [T::zero(); N];
-                    replaced[j][i] = T::constant(crate::num::Interval::point(1.0));
+                    replaced[j][i] = T::constant(Interval::point(1.0));
                     expand(&replaced)
                 }
             };
@@ -257,7 +262,7 @@ pub fn minor<T: Scalar, const N: usize>(a: &[T; N], b: &[T; N], i: usize, j: usi
 
 /// The same for N up to 6: minors of the last rows, by sets of columns.
 fn expand<T: Scalar, const N: usize>(m: &[[T; N]; N]) -> T {
-    let mut minors = [T::constant(crate::num::Interval::point(1.0)); 64];
+    let mut minors = [T::constant(Interval::point(1.0)); 64];
     for set in 1usize..1 << N {
         let row = N - set.count_ones() as usize;
         let mut sum = T::zero();

@@ -8,8 +8,9 @@ use nalgebra::{SMatrix, SVector};
 
 /// Chord steps after the one Newton step with a fresh Jacobian.
 const MOST_CHORDS: usize = 4;
-/// A step this small, relative to the robot, leaves nothing to gain.
-const SMALL: f64 = 1e-13;
+/// After a chord step this small, relative to the robot, the next would be lost in rounding: the Jacobian is from a pose hardly
+/// farther away than the root of it.
+const SMALL: f64 = 1e-9;
 
 /// A pose and the inverse of A there.
 pub(super) struct Root<const N: usize> {
