@@ -5,6 +5,7 @@ use aspecta::certificate::CertificateError;
 use aspecta::domain::cusps::CuspError;
 use aspecta::kinematics::KinematicsError;
 use aspecta::motion::PathError;
+use aspecta::motion::follow::StartError;
 use aspecta::robot::FileError;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -49,6 +50,9 @@ pub enum Failure {
     /// The path cannot be checked.
     #[error(transparent)]
     Path(#[from] PathError),
+    /// Following cannot start.
+    #[error(transparent)]
+    Start(#[from] StartError),
     /// The directory of `--out` cannot be written to.
     #[error("--out {}: {error}", directory.display())]
     Directory {

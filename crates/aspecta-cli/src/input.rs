@@ -3,6 +3,7 @@
 use crate::failure::Failure;
 use aspecta::kinematics::WorkingMode;
 use aspecta::robot::Robot;
+use std::fmt::Display;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader};
 
@@ -99,42 +100,86 @@ pub struct Row {
 /// are ignored, so that what one command prints another can read. Empty lines and lines that start with
 /// `#` are skipped.
 pub fn rows(path: &str, layouts: &[Columns], degrees: bool) -> Result<Vec<Row>, Failure> {
-    let name = if path == "-" { "stdin" } else { path };
-    let source: Box<dyn BufRead> = match path {
-        "-" => Box::new(io::stdin().lock()),
-        _ => {
-            let file = File::open(path).map_err(|e| Failure::Input(format!("cannot read `{path}`: {e}")))?;
-            Box::new(BufReader::new(file))
-        }
-    };
-    let mut shape: Option<Shape> = None;
-    let mut rows = Vec::new();
-    for (line, text) in (1..).zip(source.lines()) {
-        let at = |message: String| Failure::Input(format!("{name}:{line}: {message}"));
-        let text = text.map_err(|e| at(e.to_string()))?;
-        let Some(fields) = fields(&text) else { continue };
-        let shape = match &shape {
+    Rows::open(path, layouts, degrees)?.collect()
+}
+
+/// [`rows`], one at a time as they come. An input without any is an error.
+pub struct Rows<'a> {
+    name: &'a str,
+    lines: Box<dyn Iterator<Item = io::Result<String>>>,
+    line: u64,
+    layouts: &'a [Columns],
+    shape: Option<Shape>,
+    degrees: bool,
+    ended: bool,
+    any: bool,
+}
+
+impl<'a> Rows<'a> {
+    /// Opens the file.
+    pub fn open(path: &'a str, layouts: &'a [Columns], degrees: bool) -> Result<Self, Failure> {
+        let lines: Box<dyn Iterator<Item = _>> = match path {
+            "-" => Box::new(io::stdin().lock().lines()),
+            _ => {
+                let file =
+                    File::open(path).map_err(|e| Failure::Input(format!("cannot read `{path}`: {e}")))?;
+                Box::new(BufReader::new(file).lines())
+            }
+        };
+        let name = if path == "-" { "stdin" } else { path };
+        Ok(Self { name, lines, line: 0, layouts, shape: None, degrees, ended: false, any: false })
+    }
+
+    /// A message about a line.
+    pub fn at(&self, line: u64, message: impl Display) -> Failure {
+        Failure::Input(format!("{}:{line}: {message}", self.name))
+    }
+
+    /// The row of a line, if it holds one.
+    fn read(&mut self, text: &str) -> Result<Option<Row>, String> {
+        let Some(fields) = fields(text) else { return Ok(None) };
+        let shape = match &self.shape {
             Some(shape) => shape,
             None => {
                 let header = fields.iter().all(|field| field.parse::<f64>().is_err());
-                let found =
-                    if header { Shape::of_header(&fields, layouts) } else { Shape::of_row(&fields, layouts) };
-                let found = shape.insert(found.map_err(at)?);
+                let of = if header { Shape::of_header } else { Shape::of_row };
+                let found = self.shape.insert(of(&fields, self.layouts)?);
                 if header {
-                    continue;
+                    return Ok(None);
                 }
                 found
             }
         };
-        rows.push(Row { line, values: shape.read(&fields, degrees).map_err(at)? });
+        Ok(Some(Row { line: self.line, values: shape.read(&fields, self.degrees)? }))
     }
-    if rows.is_empty() {
-        let wanted = wanted(layouts);
-        return Err(Failure::Input(format!(
-            "{name} holds no rows; one row of numbers is wanted a line: {wanted}"
-        )));
+
+    fn next_row(&mut self) -> Result<Option<Row>, Failure> {
+        while let Some(text) = self.lines.next() {
+            self.line += 1;
+            let text = text.map_err(|e| self.at(self.line, e))?;
+            if let Some(row) = self.read(&text).map_err(|e| self.at(self.line, e))? {
+                self.any = true;
+                return Ok(Some(row));
+            }
+        }
+        if self.any {
+            return Ok(None);
+        }
+        let (name, wanted) = (self.name, wanted(self.layouts));
+        Err(Failure::Input(format!("{name} holds no rows; one row of numbers is wanted a line: {wanted}")))
     }
-    Ok(rows)
+}
+
+impl Iterator for Rows<'_> {
+    type Item = Result<Row, Failure>;
+    fn next(&mut self) -> Option<Self::Item> {
+        if self.ended {
+            return None;
+        }
+        let row = self.next_row().transpose();
+        self.ended = !matches!(row, Some(Ok(_)));
+        row
+    }
 }
 
 /// The fields of a line, or `None` if it is empty or a comment. Numbers and names hold no commas, so quotes are

@@ -11,6 +11,7 @@ mod doubts;
 mod drawing;
 mod fix;
 mod fk;
+mod follow;
 mod ik;
 mod locate;
 mod mapping;
@@ -51,6 +52,8 @@ pub enum Command {
     Cusps(cusps::Cusps),
     /// Prove that a path of straight segments meets no singularity, or find where it does
     CheckPath(check_path::CheckPath),
+    /// Follow one solution along a stream of joint vectors (or poses), every step certified, as it comes
+    Follow(follow::Follow),
     /// List the robots of the catalogue, or show one's file
     Robots(robots::Robots),
     /// Check a robot file
@@ -74,6 +77,7 @@ impl Command {
             Self::State(command) => command.run(out),
             Self::Cusps(command) => command.run(out),
             Self::CheckPath(command) => command.run(out),
+            Self::Follow(command) => command.run(out),
             Self::Robots(command) => command.run(out),
             Self::Check(command) => command.run(out),
             Self::Schema(command) => command.run(out),

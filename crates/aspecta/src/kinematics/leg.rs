@@ -8,9 +8,20 @@ use crate::robot::Actuator;
 
 /// f(d, q), the left side of the leg equation f = 0. Lengths squared, except for spherical legs (a cosine).
 pub fn equation<T: Scalar, const D: usize>(actuator: &Actuator, d: &[T; D], q: T) -> T {
+    equation_turned(actuator, d, q, || q.sin_cos())
+}
+
+/// [`equation`] with (sin q, cos q) from `turn`, which is asked only where q is an angle.
+#[inline]
+pub fn equation_turned<T: Scalar, const D: usize>(
+    actuator: &Actuator,
+    d: &[T; D],
+    q: T,
+    turn: impl FnOnce() -> (T, T),
+) -> T {
     match actuator {
         Actuator::Revolute { crank, rod } => {
-            let (sin, cos) = q.sin_cos();
+            let (sin, cos) = turn();
             let mut b = *d;
             b[0] = b[0] - cos.scale(*crank);
             b[1] = b[1] - sin.scale(*crank);
@@ -23,7 +34,7 @@ pub fn equation<T: Scalar, const D: usize>(actuator: &Actuator, d: &[T; D], q: T
         }
         Actuator::Strut => sum_of_squares(d) - q.square(),
         Actuator::Spherical { proximal: (cos_p, sin_p), distal_cos } => {
-            let (sin, cos) = q.sin_cos();
+            let (sin, cos) = turn();
             (cos * d[0] + sin * d[1]).scale(*sin_p) + d[D - 1].scale(*cos_p) - T::constant(*distal_cos)
         }
     }

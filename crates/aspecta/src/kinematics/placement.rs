@@ -1,6 +1,6 @@
 //! Where the platform puts the attachment points, and how a force at one acts on the platform.
 
-use crate::num::{Jet, Scalar, dot_constant, each};
+use crate::num::{Interval, Jet, Scalar, dot, dot_constant, each};
 use crate::robot::{Leg, Platform};
 
 /// The platform's frame in the base: C_i = origin + rotation · c_i.
@@ -43,6 +43,42 @@ impl<T: Scalar, const D: usize> Placement<T, D> {
         placement
     }
 
+    /// The placement displaced by `z`: moved by its translations and then, about its own origin, turned by
+    /// R_z R_y R_x of its angles (by the angle, in the plane) in the axes of the base. `turn[k]` holds (sin, cos) of the angle z_k. Near z = 0 these
+    /// are coordinates of the poses without any singularity; see [`displacement_row`].
+    pub fn displaced<const N: usize>(&self, platform: Platform, z: &[T; N], turn: &[(T, T); N]) -> Self {
+        let Self { origin, rotation } = Self::new(platform, z, |k| turn[k]);
+        let rotation = match (&rotation, &self.rotation) {
+            (Some(by), Some(from)) => {
+                let column = |j: usize| -> [T; D] { each!(|k| from[k][j]) };
+                let mut product = *from;
+                for i in 0..D {
+                    product[i] = each!(|j| dot(&by[i], &column(j)));
+                }
+                Some(product)
+            }
+            _ => None,
+        };
+        Self { origin: each!(|k| self.origin[k] + origin[k]), rotation }
+    }
+
+    /// The same placement in another scalar.
+    pub fn map<U: Scalar>(&self, to: impl Fn(T) -> U) -> Placement<U, D> {
+        let rotation = self.rotation.as_ref().map(|rows| {
+            let mut all = [[U::zero(); D]; D];
+            for i in 0..D {
+                all[i] = each!(|k| to(rows[i][k]));
+            }
+            all
+        });
+        Placement { origin: each!(|k| to(self.origin[k])), rotation }
+    }
+
+    /// R; `None` for platforms that do not turn.
+    pub fn rotation(&self) -> Option<&[[T; D]; D]> {
+        self.rotation.as_ref()
+    }
+
     /// Where the platform's own origin is.
     pub fn origin(&self) -> &[T; D] {
         &self.origin
@@ -59,7 +95,7 @@ impl<T: Scalar, const D: usize> Placement<T, D> {
     }
 
     /// A vector fixed in the platform, in the base frame.
-    pub fn turned(&self, v: &[crate::num::Interval; 3]) -> [T; D] {
+    pub fn turned(&self, v: &[Interval; 3]) -> [T; D] {
         match &self.rotation {
             None => each!(|k| T::constant(v[k])),
             Some(r) => each!(|k| dot_constant(&v[..D], &r[k])),
@@ -71,12 +107,17 @@ impl<T: Scalar, const D: usize> Placement<T, D> {
         let d: [T; D] = each!(|k| {
             // Constants first: for a platform that does not turn, arm and anchor are both constants.
             match self.rotation {
-                None => self.origin[k] - T::constant(leg.anchor[k] - leg.attachment[k]),
+                None => self.origin[k] - T::constant(offset(leg, k)),
                 Some(_) => (self.origin[k] + arm[k] - T::constant(leg.anchor[k])).tightened(),
             }
         });
         into_frame(leg, &d)
     }
+}
+
+/// A − c. A point platform has c = 0, which costs nothing; 0 − 0, rounded outward, would be subnormal and slow.
+fn offset(leg: &Leg, k: usize) -> Interval {
+    if leg.attachment[k] == Interval::point(0.0) { leg.anchor[k] } else { leg.anchor[k] - leg.attachment[k] }
 }
 
 /// R = R_z(yaw) R_y(pitch) R_x(roll), roll being coordinate `first`.
@@ -137,13 +178,47 @@ pub fn wrench<T: Scalar, const D: usize, const N: usize>(
     row
 }
 
+/// The derivatives with respect to the coordinates z of [`Placement::displaced`], from the derivatives `row` with respect to
+/// translations and the angular velocity ([`wrench`]), at the displacement whose angles have the (sin, cos) `turn`.
+///
+/// R_z R_y R_x at rates ż turns with ω = R_z R_y e_x ż_x + R_z e_y ż_y + e_z ż_z.
+pub fn displacement_row<T: Scalar, const N: usize>(
+    platform: Platform,
+    row: &[T; N],
+    turn: &[(T, T); N],
+) -> [T; N] {
+    let mut rates = *row;
+    if matches!(platform, Platform::TurningBody | Platform::FreeBody) {
+        let (x, y, z) = (N - 3, N - 2, N - 1);
+        let ((sin_y, cos_y), (sin_z, cos_z)) = (turn[y], turn[z]);
+        rates[x] = (row[x] * cos_z + row[y] * sin_z) * cos_y - row[z] * sin_y;
+        rates[y] = row[y] * cos_z - row[x] * sin_z;
+    }
+    rates
+}
+
 /// ∂f/∂C in the base frame and ∂f/∂q of one leg, by differentiating its equation.
 pub fn leg_gradient<T: Scalar, const D: usize>(leg: &Leg, d: &[T; D], q: T) -> (T, [T; D], T) {
+    leg_gradient_turned(leg, d, q, || q.sin_cos())
+}
+
+/// [`leg_gradient`] with (sin q, cos q) from `turn`, which is asked only where q is an angle.
+#[inline]
+pub fn leg_gradient_turned<T: Scalar, const D: usize>(
+    leg: &Leg,
+    d: &[T; D],
+    q: T,
+    turn: impl FnOnce() -> (T, T),
+) -> (T, [T; D], T) {
     // Four variables: up to three components of d, and q last.
     let variable = |x: T, k: usize| Jet::<T, 4>::variable(x, k);
-    let jets: [Jet<T, 4>; D] = std::array::from_fn(|k| variable(d[k], k));
-    let f = super::leg::equation(&leg.actuator, &jets, variable(q, 3));
-    let local: [T; D] = std::array::from_fn(|k| f.gradient[k]);
+    let jets: [Jet<T, 4>; D] = each!(|k| variable(d[k], k));
+    let q = variable(q, 3);
+    let f = super::leg::equation_turned(&leg.actuator, &jets, q, || {
+        let (sin, cos) = turn();
+        (q.chain(sin, cos), q.chain(cos, -sin))
+    });
+    let local: [T; D] = each!(|k| f.gradient[k]);
     (f.value, out_of_frame(leg, &local), f.gradient[3])
 }
 
@@ -171,7 +246,7 @@ pub fn cofactors<T: Scalar, const N: usize>(m: &[[T; N]; N]) -> [[T; N]; N] {
                 _ => {
                     let mut replaced = *m;
                     replaced[j] = [T::zero(); N];
-                    replaced[j][i] = T::constant(crate::num::Interval::point(1.0));
+                    replaced[j][i] = T::constant(Interval::point(1.0));
                     expand(&replaced)
                 }
             };
@@ -187,7 +262,7 @@ pub fn minor<T: Scalar, const N: usize>(a: &[T; N], b: &[T; N], i: usize, j: usi
 
 /// The same for N up to 6: minors of the last rows, by sets of columns.
 fn expand<T: Scalar, const N: usize>(m: &[[T; N]; N]) -> T {
-    let mut minors = [T::constant(crate::num::Interval::point(1.0)); 64];
+    let mut minors = [T::constant(Interval::point(1.0)); 64];
     for set in 1usize..1 << N {
         let row = N - set.count_ones() as usize;
         let mut sum = T::zero();

@@ -131,14 +131,25 @@ impl Robot {
     /// moments divided by the characteristic length. A row of zeros stays.
     fn homogeneous(&self, a: &[Vec<f64>]) -> DMatrix<f64> {
         let n = self.dof();
+        let mut all = DMatrix::zeros(n, n);
+        for (j, row) in a.iter().enumerate() {
+            let mut row = row.clone();
+            self.make_homogeneous(&mut row);
+            row.iter().enumerate().for_each(|(k, x)| all[(j, k)] = *x);
+        }
+        all
+    }
+
+    /// One row of it, in place.
+    pub(crate) fn make_homogeneous(&self, row: &mut [f64]) {
         let translations = self.platform.coordinates().iter().filter(|c| !c.angle).count();
         let length = if translations > 0 { self.characteristic_length() } else { 1.0 };
-        let forces = if translations > 0 { 0..translations } else { 0..n };
-        DMatrix::from_fn(n, n, |j, k| {
-            let force = a[j][forces.clone()].iter().fold(0.0, |norm: f64, x| norm.hypot(*x));
+        let forces = if translations > 0 { translations } else { row.len() };
+        let force = row[..forces].iter().fold(0.0, |norm: f64, x| norm.hypot(*x));
+        for (k, entry) in row.iter_mut().enumerate() {
             let size = if k < translations { force } else { force * length };
-            if size > 0.0 { a[j][k] / size } else { 0.0 }
-        })
+            *entry = if size > 0.0 { *entry / size } else { 0.0 };
+        }
     }
 
     fn serial_measures(&self, b: &[f64]) -> Vec<f64> {

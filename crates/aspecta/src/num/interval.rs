@@ -137,7 +137,11 @@ impl Interval {
         if !(self.hi - self.lo < 6.3 && self.magnitude() < 1e9) {
             return Self::new(-1.0, 1.0);
         }
-        let (a, b) = (f(self.lo), f(self.hi));
+        let a = f(self.lo);
+        if self.lo == self.hi {
+            return Self::new(down(a).max(-1.0), up(a).min(1.0));
+        }
+        let b = f(self.hi);
         let high = if self.may_hold_turn(peak) { 1.0 } else { up(a.max(b)).min(1.0) };
         let low = if self.may_hold_turn(peak + Self::PI) { -1.0 } else { down(a.min(b)).max(-1.0) };
         Self::new(low, high)

@@ -6,15 +6,18 @@
 //! |---|---|
 //! | `f64` | a number, to rounding: *numerical* |
 //! | [`Interval`] | bounds that hold the exact value: *certified* |
+//! | [`Ball`] | the same as midpoint and radius, faster where ranges are narrow |
 //! | [`Pack`] | eight intervals at once, for eight sibling boxes of a paving |
 //! | [`Slope`] over either | range, centre and slopes: the centred form, second-order tight |
 //! | [`Jet`] | the value and its gradient (forward mode) |
 
+mod ball;
 mod interval;
 mod jet;
 mod pack;
 mod slope;
 
+pub use ball::Ball;
 pub use interval::Interval;
 pub use jet::Jet;
 pub use pack::{LANES, Mask, Pack};

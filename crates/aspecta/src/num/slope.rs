@@ -1,6 +1,6 @@
 //! Slopes: enclosures of difference quotients about a centre.
 
-use super::{Interval, Pack, Scalar, each};
+use super::{Ball, Interval, Pack, Scalar, each};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// An enclosing scalar on which slopes can be built.
@@ -50,6 +50,21 @@ impl Enclosure for Pack {
             Pack::select(&known, at, over),
             Pack::select(&known, (over + at).positive_reciprocal(), Pack::zero()),
         )
+    }
+}
+
+impl Enclosure for Ball {
+    #[inline(always)]
+    fn meet(self, other: Self) -> Self {
+        self.narrower(other)
+    }
+    #[inline(always)]
+    fn symmetric(self) -> Self {
+        Ball::about_zero(self.magnitude())
+    }
+    fn root_slope(range: Self, centre: Self) -> (Self, Self) {
+        let (root, quotient) = Interval::root_slope(range.into(), centre.into());
+        (root.into(), quotient.into())
     }
 }
 

@@ -238,7 +238,7 @@ fn labelled<const D: usize, const N: usize>(
 }
 
 /// Whether every joint is strictly within its limits at `pose` in `mode`.
-fn within_limits<const D: usize>(robot: &Robot, pose: &[f64], mode: WorkingMode) -> bool {
+pub(crate) fn within_limits<const D: usize>(robot: &Robot, pose: &[f64], mode: WorkingMode) -> bool {
     let placement = Placement::<f64, D>::at(robot.platform, pose);
     robot.legs.iter().zip(mode.signs()).all(|(leg, sign)| {
         let span = placement.span(leg, &placement.arm(leg));

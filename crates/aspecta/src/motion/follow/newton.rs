@@ -1,0 +1,114 @@
+//! The pose at the new joint vector, in doubles: what the certificate then judges.
+
+use super::tube::{Model, Turn};
+use crate::kinematics::leg::equation_turned;
+use crate::kinematics::placement::{Placement, leg_gradient_turned, wrench};
+use crate::robot::Platform;
+use nalgebra::{SMatrix, SVector};
+
+/// Chord steps after the one Newton step with a fresh Jacobian.
+const MOST_CHORDS: usize = 4;
+/// After a chord step this small, relative to the robot, the next would be lost in rounding: the Jacobian is from a pose hardly
+/// farther away than the root of it.
+const SMALL: f64 = 1e-9;
+
+/// A pose and the inverse of A there.
+pub(super) struct Root<const N: usize> {
+    pub pose: [f64; N],
+    pub inverse: SMatrix<f64, N, N>,
+}
+
+impl<const D: usize, const N: usize> Model<'_, D, N> {
+    /// Newton's method for f(·, q) = 0 from `pose`, where `inverse` ≈ A⁻¹. `None` if A has no inverse.
+    pub fn newton(
+        &self,
+        pose: &[f64; N],
+        inverse: &SMatrix<f64, N, N>,
+        q: &[f64; N],
+        turns: &[Turn<f64>; N],
+    ) -> Option<Root<N>> {
+        let platform = self.robot.platform;
+        let predicted = moved::<D, N>(platform, pose, &-(inverse * self.residual(pose, q, turns)));
+        let (f, a) = self.linearised(&predicted, q, turns);
+        let inverse = a.try_inverse()?;
+        let mut pose = moved::<D, N>(platform, &predicted, &-(inverse * f));
+        for _ in 0..MOST_CHORDS {
+            let step = -(inverse * self.residual(&pose, q, turns));
+            pose = moved::<D, N>(platform, &pose, &step);
+            if (0..N).all(|k| step[k].abs() <= SMALL * self.unit[k]) {
+                break;
+            }
+        }
+        pose.iter().all(|x| x.is_finite()).then_some(Root { pose, inverse })
+    }
+
+    /// f.
+    fn residual(&self, pose: &[f64; N], q: &[f64; N], turns: &[Turn<f64>; N]) -> SVector<f64, N> {
+        let placement = Placement::<f64, D>::at(self.robot.platform, pose);
+        let mut f = SVector::zeros();
+        for (j, leg) in self.robot.legs.iter().enumerate().take(N) {
+            let span = placement.span(leg, &placement.arm(leg));
+            f[j] = equation_turned(&leg.actuator, &span, q[j], || turns[j]);
+        }
+        f
+    }
+
+    /// f and A, with respect to translations and the angular velocity.
+    pub fn linearised(
+        &self,
+        pose: &[f64; N],
+        q: &[f64; N],
+        turns: &[Turn<f64>; N],
+    ) -> (SVector<f64, N>, SMatrix<f64, N, N>) {
+        let platform = self.robot.platform;
+        let placement = Placement::<f64, D>::at(platform, pose);
+        let (mut f, mut a) = (SVector::zeros(), SMatrix::zeros());
+        for (j, leg) in self.robot.legs.iter().enumerate().take(N) {
+            let arm = placement.arm(leg);
+            let (value, gradient, _) =
+                leg_gradient_turned(leg, &placement.span(leg, &arm), q[j], || turns[j]);
+            f[j] = value;
+            let row: [f64; N] = wrench(platform, &gradient, &arm);
+            for k in 0..N {
+                a[(j, k)] = row[k];
+            }
+        }
+        (f, a)
+    }
+}
+
+/// The pose displaced by z ([`Placement::displaced`]); roll and yaw stay near what they were.
+pub(super) fn moved<const D: usize, const N: usize>(
+    platform: Platform,
+    pose: &[f64; N],
+    z: &SVector<f64, N>,
+) -> [f64; N] {
+    let mut to: [f64; N] = std::array::from_fn(|k| pose[k] + z[k]);
+    if !matches!(platform, Platform::TurningBody | Platform::FreeBody) {
+        return to;
+    }
+    let z: [f64; N] = std::array::from_fn(|k| z[k]);
+    let turn = z.map(f64::sin_cos);
+    let placement = Placement::<f64, D>::at(platform, pose).displaced(platform, &z, &turn);
+    if let Some(r) = placement.rotation() {
+        let angles = roll_pitch_yaw(r);
+        for (k, angle) in (N - 3..N).zip(angles) {
+            to[k] = near(angle, pose[k]);
+        }
+    }
+    to
+}
+
+/// The angles of R = R_z(yaw) R_y(pitch) R_x(roll).
+fn roll_pitch_yaw<const D: usize>(r: &[[f64; D]; D]) -> [f64; 3] {
+    let low = r[D - 1];
+    let roll = low[1].atan2(low[D - 1]);
+    let pitch = (-low[0]).atan2(low[1].hypot(low[D - 1]));
+    let yaw = r[1][0].atan2(r[0][0]);
+    [roll, pitch, yaw]
+}
+
+/// The angle plus the full turns that bring it nearest to `other`.
+pub(super) fn near(angle: f64, other: f64) -> f64 {
+    other + crate::num::without_turns(angle - other)
+}
