@@ -8,10 +8,6 @@ use nalgebra::{SMatrix, SVector};
 
 /// Chord steps after the one Newton step with a fresh Jacobian.
 const MOST_CHORDS: usize = 4;
-/// After a chord step this small, relative to the robot, the next would be lost in rounding: the Jacobian is from a pose hardly
-/// farther away than the root of it.
-const SMALL: f64 = 1e-9;
-
 /// A pose and the inverse of A there.
 pub(super) struct Root<const N: usize> {
     pub pose: [f64; N],
@@ -31,15 +27,25 @@ impl<const D: usize, const N: usize> Model<'_, D, N> {
         let predicted = moved::<D, N>(platform, pose, &-(inverse * self.residual(pose, q, turns)));
         let (f, a) = self.linearised(&predicted, q, turns);
         let inverse = a.try_inverse()?;
-        let mut pose = moved::<D, N>(platform, &predicted, &-(inverse * f));
+        let step = -(inverse * f);
+        let mut pose = moved::<D, N>(platform, &predicted, &step);
+        let mut last = self.length(&step);
         for _ in 0..MOST_CHORDS {
             let step = -(inverse * self.residual(&pose, q, turns));
             pose = moved::<D, N>(platform, &pose, &step);
-            if (0..N).all(|k| step[k].abs() <= SMALL * self.unit[k]) {
+            let length = self.length(&step);
+            // Steps shrink by one factor: the next would be lost in rounding.
+            if length * length <= 0.5 * f64::EPSILON * last {
                 break;
             }
+            last = length;
         }
         pose.iter().all(|x| x.is_finite()).then_some(Root { pose, inverse })
+    }
+
+    /// ‖z‖, numerical.
+    fn length(&self, z: &SVector<f64, N>) -> f64 {
+        (0..N).fold(0.0, |most: f64, k| most.max(z[k].abs() / self.unit[k]))
     }
 
     /// f.

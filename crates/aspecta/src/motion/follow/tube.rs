@@ -160,7 +160,7 @@ impl<'a, const D: usize, const N: usize> Model<'a, D, N> {
     pub fn prove(&self, start: &Located<N>, q: &[f64; N], slack: &[f64; N]) -> Option<Proof<N>> {
         let turns = self.turns(q);
         let root = self.newton(&start.pose, &start.inverse, q, &plain(&turns))?;
-        self.certify::<Ball>(&Stretch::moving(self, start, &root, q, &turns, slack), &root)
+        self.certify::<Ball>(&Stretch::moving(self, start, &root, q, &turns, slack), &root).ok()
     }
 
     /// The same at several times the cost, for longer stretches: enclosures know where on the way they are, and the
@@ -177,6 +177,11 @@ impl<'a, const D: usize, const N: usize> Model<'a, D, N> {
         stretch.y = rows(&inverse);
         stretch.miss = each!(|i| dot(&stretch.y[i], &stretch.f));
         self.certify::<Slope<Ball, 1>>(&stretch, &root)
+            .or_else(|needed| {
+                stretch.room = 1.5 * needed;
+                self.certify::<Slope<Ball, 1>>(&stretch, &root)
+            })
+            .ok()
     }
 
     /// Proves that the solution for `guess.q` near `guess.pose` is the only one in a ball that holds both.
@@ -186,7 +191,7 @@ impl<'a, const D: usize, const N: usize> Model<'a, D, N> {
         let mut stretch = Stretch::moving(self, guess, &root, &guess.q, &turns, &[0.0; N]);
         stretch.room += self.size(&stretch.known);
         stretch.s = [ZERO; N];
-        self.certify::<Ball>(&stretch, &root)
+        self.certify::<Ball>(&stretch, &root).ok()
     }
 
     /// (sin, cos) of the joints that are angles.
@@ -200,12 +205,16 @@ impl<'a, const D: usize, const N: usize> Model<'a, D, N> {
         turns
     }
 
-    /// The theorem of [`super`].
-    fn certify<T: OnTheWay>(&self, stretch: &Stretch<'_, D, N>, root: &Root<N>) -> Option<Proof<N>> {
+    /// The theorem of [`super`]. `Err` holds a radius ρ that might do; infinite if κ ≥ 1.
+    ///
+    /// What is compared may be infinite or NaN: each condition is one that must be true.
+    fn certify<T: OnTheWay>(&self, stretch: &Stretch<'_, D, N>, root: &Root<N>) -> Result<Proof<N>, f64> {
         let Stretch { s, back, off, room, .. } = stretch;
         let from_centre: [Ball; N] = each!(|k| stretch.known[k] - s[k]);
-        if self.size(&from_centre) > *room {
-            return None;
+        let needed = self.size(&from_centre);
+        let holds_start = needed <= *room && *room < f64::INFINITY;
+        if !holds_start {
+            return Err(needed);
         }
         let (a, b) = self.derivatives::<T>(stretch);
         let y: [[T; N]; N] = each_row(|i| each!(|k| T::fixed(stretch.y[i][k])));
@@ -223,13 +232,14 @@ impl<'a, const D: usize, const N: usize> Model<'a, D, N> {
         let jolt: [Ball; N] = each!(|j| b[j].range() * off[j]);
         let missed: [Ball; N] =
             each!(|i| stretch.miss[i] + dot(&y[i], &drift).so_far() + dot(&stretch.y[i], &jolt));
-        let proved = left > 0.0 && above(self.size(&missed) / left) <= *room;
-        if !proved {
-            return None;
+        let needed = if left > 0.0 { above(self.size(&missed) / left) } else { f64::INFINITY };
+        let holds_tube = needed <= *room && left > 0.0;
+        if !holds_tube {
+            return Err(needed);
         }
         let radius = above(self.size(&stretch.miss) / left);
         let end = Located { pose: root.pose, q: stretch.q, radius, inverse: root.inverse };
-        Some(Proof { end, signs: b.map(|b| b.range().sign()) })
+        Ok(Proof { end, signs: b.map(|b| b.range().sign()) })
     }
 
     /// f(X, q) at a placement.
