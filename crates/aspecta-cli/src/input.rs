@@ -1,11 +1,13 @@
 //! Numbers from the command line and from CSV files.
 
 use crate::failure::Failure;
+use aspecta::domain::Map;
 use aspecta::kinematics::WorkingMode;
 use aspecta::robot::Robot;
 use std::fmt::Display;
 use std::fs::File;
-use std::io::{self, BufRead, BufReader};
+use std::io::{self, BufRead, BufReader, Read};
+use std::path::Path;
 
 /// Named numbers that are read together: the coordinates of a pose or of a joint vector.
 #[derive(Clone)]
@@ -67,8 +69,19 @@ pub fn list(option: &str, text: &str, columns: &Columns, degrees: bool) -> Resul
     Ok(values)
 }
 
+/// Whether a file may be a map, as far as its first bytes tell.
+pub fn is_map(path: &Path) -> bool {
+    let mut mark = [0; 2];
+    File::open(path).and_then(|mut file| file.read_exact(&mut mark)).is_ok() && Map::is_map(&mark)
+}
+
 /// The robot of a catalogue name or of a file.
 pub fn robot(name_or_path: &str) -> Result<Robot, Failure> {
+    if is_map(name_or_path.as_ref()) {
+        return Err(Failure::Input(format!(
+            "`{name_or_path}` is a map of a robot's aspects, for `aspecta locate` and `aspecta domains`: give the robot's name or file"
+        )));
+    }
     Ok(Robot::resolve(name_or_path)?)
 }
 

@@ -139,6 +139,7 @@ fn damaged_and_foreign_files_are_refused() {
         assert!(Map::from_bytes(&damaged).is_err(), "bit of byte {at}");
         assert!(Map::from_bytes(&file[..at]).is_err(), "cut at {at}");
     }
+    assert!(matches!(Map::from_bytes(&[&file[..], b"more"].concat()), Err(MapError::Damaged(_))));
     assert!(matches!(Map::from_bytes(b"name = \"robot\""), Err(MapError::Damaged(_))));
     assert!(matches!(Map::from_bytes(&packed("{}")), Err(MapError::Form(_))));
     let text = unpacked(&file);

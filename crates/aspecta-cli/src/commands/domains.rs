@@ -77,7 +77,7 @@ impl Domains {
         if let Some(directory) = &self.out {
             file::writable(directory).map_err(Failure::in_directory(directory))?;
         }
-        let save = self.save.as_deref().map(|path| Target::new("--save", path)).transpose()?;
+        let save = self.save.as_deref().map(target).transpose()?;
         let with_surfaces = self.out.is_some() || self.save.is_some();
         let (map, stop) = watch::watched(self.threads, |control| {
             source.map(&self.making, with_surfaces, control, |analysis| self.ids(analysis, wanted))
@@ -173,6 +173,17 @@ impl Domains {
         }
         Ok(writeln!(out, "{text}")?)
     }
+}
+
+/// Where the map goes: over nothing but another map.
+fn target(path: &Path) -> Result<Target, Failure> {
+    if path.is_file() && !input::is_map(path) {
+        let path = path.display();
+        return Err(Failure::Input(format!(
+            "--save {path}: the file is there and is no map: give another name"
+        )));
+    }
+    Target::new("--save", path)
 }
 
 /// Says what of a characteristic surface is missing in the files.

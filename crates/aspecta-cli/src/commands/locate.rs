@@ -24,7 +24,7 @@ pub struct Locate {
     #[command(flatten)]
     input: Input,
     /// The rows of --file are joint vectors, not poses
-    #[arg(long, requires = "file")]
+    #[arg(long)]
     joints: bool,
     /// Only in this working mode, such as `+-`
     #[arg(long, allow_hyphen_values = true)]
@@ -78,6 +78,9 @@ impl Locate {
     fn configurations(&self, robot: &Robot) -> Result<Vec<Found>, Failure> {
         let mode = self.mode.as_deref().map(|m| input::mode(robot, m)).transpose()?;
         let Input { pose, q, file } = &self.input;
+        if self.joints && file.is_none() {
+            return Err(Failure::Input("--joints is about the rows of --file: give one, or --q".into()));
+        }
         let joints = self.joints || q.is_some();
         let (option, layout, value) =
             if joints { ("--q", Columns::joints(robot), q) } else { ("--pose", Columns::pose(robot), pose) };

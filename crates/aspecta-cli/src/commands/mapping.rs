@@ -6,13 +6,11 @@ use crate::input;
 use aspecta::aspect::{Analysis, DetSign, Options, analyze};
 use aspecta::domain::boundary::Boundary;
 use aspecta::domain::characteristic::Characteristic;
-use aspecta::domain::{DomainError, DomainOptions, Map, MappedAspect, Surfaces, domains};
+use aspecta::domain::{DomainError, DomainOptions, Map, MappedAspect, Surfaces, can_be_cut, domains};
 use aspecta::kinematics::WorkingMode;
 use aspecta::paving::{Budget, Control, Stop};
 use aspecta::robot::Robot;
 use clap::Args;
-use std::fs::File;
-use std::io::Read;
 
 /// How a map is computed.
 #[derive(Args)]
@@ -56,10 +54,7 @@ impl Wanted {
 impl Source {
     /// Reads the map, or resolves the name of the robot.
     pub fn new(name_or_path: &str) -> Result<Self, Failure> {
-        let mut mark = [0; 2];
-        let is_map = File::open(name_or_path).and_then(|mut file| file.read_exact(&mut mark)).is_ok()
-            && Map::is_map(&mark);
-        if !is_map {
+        if !input::is_map(name_or_path.as_ref()) {
             return Ok(Self::Robot(input::robot(name_or_path)?));
         }
         let refused = |why: String| Failure::Input(format!("`{name_or_path}`: {why}"));
@@ -107,6 +102,7 @@ impl Making {
         let options = Options { budget: self.budget.unwrap_or(coarse), ..Options::default() };
         let usual = DomainOptions::default();
         let cells = self.cells.map_or(if in_plane { 5 * usual.cells } else { usual.cells }, usize::from);
+        can_be_cut(robot)?;
         let analysis = analyze(robot, &options, control)?;
         let sheet = |id: usize| {
             let mut domains = domains(&analysis, id, DomainOptions { cells, ..usual }, control)?;

@@ -6,8 +6,9 @@ use crate::failure::Failure;
 use crate::input::Columns;
 use crate::output::{Align, FORMAT_VERSION, Format, Table, exact, json};
 use aspecta::aspect::DetSign;
-use aspecta::domain::Map;
+use aspecta::domain::{Map, Nowhere};
 use aspecta::kinematics::{Solution, WorkingMode};
+use aspecta::robot::{Limit, Robot};
 use serde::Serialize;
 use std::io::Write;
 
@@ -44,7 +45,7 @@ impl<'a> Place<'a> {
         };
         let location = match map.locate(&s.pose, s.mode) {
             Ok(location) => location,
-            Err(nowhere) => return Self { why: Some(nowhere.to_string()), ..place },
+            Err(nowhere) => return Self { why: Some(why(&map.robot, &nowhere)), ..place },
         };
         (place.det_a, place.aspect, place.region) = (Some(location.det_a), location.aspect, location.region);
         let domains = location.aspect.and_then(|aspect| map.domains(aspect));
@@ -53,12 +54,25 @@ impl<'a> Place<'a> {
                 place.solutions = domains.regions.get(region - 1).map(|region| region.solutions);
                 place.uniqueness = map.uniqueness(aspect, region).collect();
             }
-            (Some(_), Some(_), None) => place.why = Some("too near a surface for the cells".into()),
+            (Some(_), Some(_), None) => {
+                place.why = Some("in a part that the map does not resolve (--cells)".into())
+            }
             (Some(_), None, _) => place.why = Some("its regions are not in the file".into()),
             (None, ..) => place.why = Some("no mapped aspect could be proved to hold it".into()),
         }
         place
     }
+}
+
+fn why(robot: &Robot, nowhere: &Nowhere) -> String {
+    let Nowhere::Limit { leg, limit } = *nowhere else { return nowhere.to_string() };
+    let joint = match robot.legs[leg - 1].limits[limit - 1] {
+        Limit::ActuatorAngle { .. } | Limit::ActuatorLength { .. } => "actuator",
+        Limit::Elbow { .. } | Limit::SpatialElbow { .. } => "elbow",
+        Limit::BaseCone { .. } => "joint at the base",
+        Limit::PlatformCone { .. } => "joint at the platform",
+    };
+    format!("beyond the limits of leg {leg}: {joint}")
 }
 
 #[derive(Serialize)]

@@ -55,7 +55,7 @@ fn regions(out: &mut dyn Write, robot: &Robot, found: &Domains) -> Result<(), Fa
         let (parts, share) = (found.unresolved.parts, 100.0 * found.unresolved.measure / found.measure);
         writeln!(
             out,
-            "  not resolved: {parts} parts thinner than two cells, {share:.3} % of the {}; --cells makes them fewer",
+            "  not resolved: {parts} parts thinner than two cells somewhere, {share:.3} % of the {}; --cells makes them fewer",
             unit.name
         )?;
     }
@@ -107,6 +107,14 @@ fn checks(out: &mut dyn Write, robot: &Robot, found: &Domains) -> Result<(), Fai
             brief(apart)
         )?;
     }
+    let incomplete = unmatched(found);
+    if !incomplete.is_empty() {
+        let listed = incomplete.iter().take(LISTED).map(usize::to_string).collect::<Vec<_>>().join(" ");
+        writeln!(
+            out,
+            "not as many coincident images as solutions, so the uniqueness domains are not sure (more --cells): regions {listed}"
+        )?;
+    }
     for c in found.coincidences.iter().filter(|c| c.shares.0.min(c.shares.1) < WHOLE).take(LISTED) {
         let ((a, b), (in_b, in_a)) = (c.regions, c.shares);
         writeln!(
@@ -130,6 +138,16 @@ fn checks(out: &mut dyn Write, robot: &Robot, found: &Domains) -> Result<(), Fai
         writeln!(out, "at {} nodes the direct model failed: counted as one solution", found.failed)?;
     }
     Ok(())
+}
+
+/// The regions whose image does not meet those of just so many others that each solution has one: some are not resolved, or
+/// neighbours are taken for one.
+fn unmatched(found: &Domains) -> Vec<usize> {
+    let partners = |number: usize| {
+        found.coincidences.iter().filter(|c| [c.regions.0, c.regions.1].contains(&number)).count()
+    };
+    let regions = found.regions.iter().filter(|r| partners(r.number) + 1 != usize::from(r.solutions));
+    regions.map(|region| region.number).collect()
 }
 
 /// Images that coincide to this share are said to coincide: the rest is as much as a grid errs near surfaces.

@@ -72,7 +72,7 @@ impl Legend<'_> {
         let names = [
             (Kind::Parallel, "det A = 0"),
             (Kind::Serial, "det B = 0"),
-            (Kind::Limit, "joint limit or end of the window"),
+            (Kind::Limit, "joint limit, window"),
         ];
         let mut x = self.left;
         for (of, text) in names {

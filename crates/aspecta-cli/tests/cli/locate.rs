@@ -71,6 +71,31 @@ fn what_cannot_be_located_is_explained() {
     assert!(found.status.code() == Some(1) && text.contains("regions are not in the file"), "{text}");
 }
 
+/// A robot file is not lost to a slip, and a map is not taken for one.
+#[test]
+fn files_are_not_mixed_up() {
+    let robot = MAP.0.path().join("robot.toml");
+    let text = output("robots show irb-360").stdout;
+    fs::write(&robot, &text).unwrap();
+    let refused =
+        aspecta("domains five-bar --cells 20 --budget depth=6 --save").arg(&robot).output().unwrap();
+    let messages = String::from_utf8(refused.stderr).unwrap();
+    assert!(refused.status.code() == Some(2) && messages.contains("is no map"), "{messages}");
+    assert_eq!(fs::read(&robot).unwrap(), text);
+    let refused = aspecta("ik --pose 3,6").arg(&MAP.1).output().unwrap();
+    let messages = String::from_utf8(refused.stderr).unwrap();
+    assert!(refused.status.code() == Some(2) && messages.contains("aspecta locate"), "{messages}");
+    // Cranks pointing up by more than 40°.
+    let beyond = aspecta("locate --pose 0,0,-760 --mode --- --cells 20 --budget depth=4")
+        .arg(&robot)
+        .output()
+        .unwrap();
+    let text = String::from_utf8(beyond.stdout).unwrap();
+    assert!(text.contains("beyond the limits of leg 1: actuator"), "{text}");
+    let refused = output("locate spherical-3-rrr --pose 0,0,0");
+    assert_eq!(refused.status.code(), Some(2));
+}
+
 #[test]
 fn without_a_map_it_is_computed() {
     let found = output("locate five-bar --pose 3,6 --mode ++ --cells 50 --budget depth=8");

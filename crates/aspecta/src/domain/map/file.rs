@@ -10,9 +10,10 @@ use crate::domain::result::Domains;
 use crate::kinematics::WorkingMode;
 use crate::robot::{Robot, SliceError};
 use flate2::Compression;
-use flate2::read::GzDecoder;
+use flate2::bufread::GzDecoder;
 use flate2::write::GzEncoder;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
 use std::io::{self, Read, Write};
 
 /// Version of the file format; raised when a field changes its meaning or goes away.
@@ -22,7 +23,7 @@ pub const MAP_VERSION: u32 = 1;
 const MAGIC: [u8; 2] = [0x1f, 0x8b];
 
 /// The most bytes that are unpacked.
-const LARGEST: u64 = 1 << 32;
+const LARGEST: u64 = 1 << 30;
 
 /// Why a file is no map.
 #[derive(Debug, thiserror::Error)]
@@ -130,7 +131,11 @@ impl Map {
     pub fn from_bytes(file: &[u8]) -> Result<Self, MapError> {
         let mut text = Vec::new();
         // Reading to the end checks length and check sum.
-        GzDecoder::new(file).take(LARGEST).read_to_end(&mut text)?;
+        let mut packed = GzDecoder::new(file).take(LARGEST);
+        packed.read_to_end(&mut text)?;
+        if !packed.into_inner().into_inner().is_empty() {
+            return Err(MapError::Damaged(io::Error::other("it goes on after its end, or is too large")));
+        }
         let Head { map_version: found } = serde_json::from_slice(&text)?;
         if found != MAP_VERSION {
             return Err(MapError::Version { found });
@@ -148,7 +153,9 @@ impl Map {
             sheet.check(&file.classes, file.robot.dof())?;
             Ok(sheet)
         };
-        let sheets = file.sheets.into_iter().map(sheet).collect::<Result<Vec<_>, Unsound>>()?;
+        let sheets = file.sheets.into_iter().map(sheet).collect::<Result<Vec<MappedAspect>, Unsound>>()?;
+        let distinct: BTreeSet<usize> = sheets.iter().map(|sheet| sheet.domains.aspect).collect();
+        holds(distinct.len() == sheets.len(), "the regions of an aspect stand twice")?;
         Ok(Self { robot: file.robot, window, unit, aspects: file.aspects, classes: file.classes, sheets })
     }
 }
@@ -196,6 +203,9 @@ impl MappedAspect {
         holds(classes.iter().any(known), "regions of an aspect that is in no class")?;
         holds(domains.labels.grid.is_sound(dof), "a grid that is none")?;
         let regions = domains.regions.len();
+        let labels = regions.saturating_add(domains.unresolved.parts);
+        let mut named = domains.labels.region.iter().filter(|region| **region != OUTSIDE);
+        holds(named.all(|&region| (region as usize) < labels), "a node in a region that there is not")?;
         let is_region = |number: &usize| (1..=regions).contains(number);
         let numbered =
             (1..).zip(&domains.regions).all(|(k, region)| region.number == k && region.pose.len() == dof);
