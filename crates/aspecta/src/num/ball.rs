@@ -39,7 +39,7 @@ impl Ball {
         Self { mid: 0.0, rad }
     }
 
-    /// A ball with this midpoint as computed and a radius from at most four rounded operations.
+    /// A ball with this midpoint as computed and a radius from at most four rounded operations on numbers ≥ 0.
     #[inline(always)]
     fn rounded(mid: f64, rad: f64) -> Self {
         Self { mid, rad: (rad + mid.abs() * UNIT) * ENLARGE + TINY }
