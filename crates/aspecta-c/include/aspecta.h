@@ -4,7 +4,8 @@
  * x, y | x, y, phi | x, y, z | roll, pitch, yaw | x, y, z, roll, pitch, yaw; joint vectors one number a leg. Angles are real numbers and go on
  * past +-pi.
  *
- * aspecta_step and aspecta_inverse_step neither allocate nor print, lock, or call the system; they try at most 64 stretches. A handle may
+ * aspecta_step and aspecta_inverse_step neither allocate nor print, lock, or call the system. A direct step is cut into at most 64 stretches:
+ * a refused one may take some 400 times as long as a certified one, 0.4 ms in the plane and 2 ms with six degrees of freedom. A handle may
  * be used from any thread, but by one at a time; different handles are independent.
  *
  * Link with libaspecta_c.so, or with libaspecta_c.a and -lm -lpthread -ldl. */

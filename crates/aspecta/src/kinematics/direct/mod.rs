@@ -12,7 +12,6 @@
 //! Nothing is lost near double solutions: intervals decide how many poses there are, and where they cannot, every
 //! pose is returned whose leg equations hold to rounding.
 
-mod ball;
 mod bernstein;
 mod certify;
 mod circles;

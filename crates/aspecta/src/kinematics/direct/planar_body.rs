@@ -1,12 +1,11 @@
 //! A body in the plane on three legs: the 3-RPR problem, at most six poses.
 
-use super::ball::Ball;
 use super::bernstein::{Arc, Piece, isolate};
 use super::eliminant::TrigonometricCubic;
 use super::locked::Locked;
 use super::triangle::{Complex, Triangle, conjugate_times, times};
 use super::{Roots, SelfMotion, cluster};
-use crate::num::{Interval, Scalar};
+use crate::num::{Ball, Interval, Scalar};
 
 /// Half a circle of orientations: z = (2ab + i (b² − a²)) / (a² + b²) · ζ with a = 1 − τ, b = τ ∈ [0, 1].
 #[derive(Clone, Copy, Debug)]
@@ -20,8 +19,8 @@ impl Chart {
     fn pair(zeta: Complex<f64>, turned: &TrigonometricCubic<Ball>) -> Option<[Self; 2]> {
         let chart = |zeta, eliminant: &TrigonometricCubic<Ball>| {
             let coefficients = eliminant.bernstein();
-            let slack = coefficients.iter().map(|c| c.radius).fold(0.0, f64::max);
-            Self { zeta, eliminant: Arc::new(coefficients.map(|c| c.middle), slack) }
+            let slack = coefficients.iter().map(|c| c.rad).fold(0.0, f64::max);
+            Self { zeta, eliminant: Arc::new(coefficients.map(|c| c.mid), slack) }
         };
         let near = chart(zeta, turned);
         let both = || [near, chart([-zeta[0], -zeta[1]], &turned.opposite())];
