@@ -38,6 +38,7 @@ fn names_are_those_of_the_contract() {
         "2-prr",
         "3-prr",
         "delta",
+        "irb-360",
         "linear-delta",
         "orthoglide",
         "spherical-3-rrr",
