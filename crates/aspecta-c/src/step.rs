@@ -48,6 +48,12 @@ impl aspecta_report {
         }
     }
 
+    /// Fills in what is known of a certified step.
+    fn certify(&mut self, stretches: u32, same_aspect: bool, within_limits: bool) {
+        (self.proved, self.stretches) = (1.0, stretches);
+        (self.same_aspect, self.within_limits) = (same_aspect.into(), within_limits.into());
+    }
+
     /// Fills in why a step was refused.
     fn refuse(&mut self, refusal: Refusal) -> i32 {
         match refusal {
@@ -91,30 +97,20 @@ pub unsafe extern "C" fn aspecta_step(
         let n = follower.robot().dof();
         (follower, std::slice::from_raw_parts(q, n))
     };
-    let (status, said) = match follower.step(q) {
+    let mut said = aspecta_report::new(follower.mode());
+    let status = match follower.step(q) {
         Ok(step) => {
             // SAFETY: not null, and room for n numbers; `q` is not read any more, should they be the same.
             unsafe { write(pose, step.pose()) };
-            let said = aspecta_report {
-                proved: 1.0,
-                length_error: step.length_error,
-                angle_error: step.angle_error,
-                stretches: step.stretches,
-                same_aspect: step.mode_kept.into(),
-                within_limits: step.within_limits.into(),
-                ..aspecta_report::new(step.mode)
-            };
-            (OK, said)
+            said = aspecta_report::new(step.mode);
+            said.certify(step.stretches, step.mode_kept, step.within_limits);
+            (said.length_error, said.angle_error) = (step.length_error, step.angle_error);
+            OK
         }
-        Err(refusal) => {
-            let mut said = aspecta_report::new(follower.mode());
-            (said.refuse(refusal), said)
-        }
+        Err(refusal) => said.refuse(refusal),
     };
-    if !report.is_null() {
-        // SAFETY: the caller's promise.
-        unsafe { report.write(said) };
-    }
+    // SAFETY: the caller's promise.
+    unsafe { tell(report, said) };
     status
 }
 
@@ -144,18 +140,13 @@ pub unsafe extern "C" fn aspecta_inverse_step(
         Ok(step) => {
             // SAFETY: not null, and room for n numbers; `pose` is not read any more, should they be the same.
             unsafe { write(q, step.q()) };
-            said.proved = 1.0;
-            said.stretches = step.stretches;
-            said.same_aspect = step.regular.into();
-            said.within_limits = step.within_limits.into();
+            said.certify(step.stretches, step.regular, step.within_limits);
             OK
         }
         Err(refusal) => said.refuse(refusal),
     };
-    if !report.is_null() {
-        // SAFETY: the caller's promise.
-        unsafe { report.write(said) };
-    }
+    // SAFETY: the caller's promise.
+    unsafe { tell(report, said) };
     status
 }
 
@@ -167,13 +158,9 @@ pub unsafe extern "C" fn aspecta_inverse_step(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn aspecta_last(follower: *const aspecta_follower, pose: *mut f64, q: *mut f64) -> i32 {
     // SAFETY: null or valid, by the caller's promise.
-    let Some(follower) = (unsafe { follower.as_ref() }) else { return NULL };
+    let last = unsafe { follower.as_ref() }.map(|follower| (follower.0.pose(), follower.0.q()));
     // SAFETY: the caller's promise.
-    unsafe {
-        write(pose, follower.0.pose());
-        write(q, follower.0.q());
-    }
-    OK
+    unsafe { copy(last, pose, q) }
 }
 
 /// See `aspecta.h`.
@@ -188,13 +175,9 @@ pub unsafe extern "C" fn aspecta_inverse_last(
     q: *mut f64,
 ) -> i32 {
     // SAFETY: null or valid, by the caller's promise.
-    let Some(follower) = (unsafe { follower.as_ref() }) else { return NULL };
+    let last = unsafe { follower.as_ref() }.map(|follower| (follower.0.pose(), follower.0.q()));
     // SAFETY: the caller's promise.
-    unsafe {
-        write(pose, follower.0.pose());
-        write(q, follower.0.q());
-    }
-    OK
+    unsafe { copy(last, pose, q) }
 }
 
 /// See `aspecta.h`.
@@ -206,6 +189,33 @@ pub unsafe extern "C" fn aspecta_inverse_last(
 pub unsafe extern "C" fn aspecta_dof(follower: *const aspecta_follower) -> usize {
     // SAFETY: null or valid, by the caller's promise.
     unsafe { follower.as_ref() }.map_or(0, |follower| follower.0.robot().dof())
+}
+
+/// Writes the report, if it is wanted.
+///
+/// # Safety
+/// `report` is null or valid.
+#[allow(unsafe_code)]
+unsafe fn tell(report: *mut aspecta_report, said: aspecta_report) {
+    if !report.is_null() {
+        // SAFETY: the caller's promise.
+        unsafe { report.write(said) };
+    }
+}
+
+/// Copies a handle's pose and joint vector.
+///
+/// # Safety
+/// `pose` and `q` are null or have room for them.
+#[allow(unsafe_code)]
+unsafe fn copy(last: Option<(&[f64], &[f64])>, pose: *mut f64, q: *mut f64) -> i32 {
+    let Some(last) = last else { return NULL };
+    // SAFETY: the caller's promise.
+    unsafe {
+        write(pose, last.0);
+        write(q, last.1);
+    }
+    OK
 }
 
 /// Copies `values` to `to`, if that is not null.

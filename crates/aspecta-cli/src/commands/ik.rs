@@ -1,10 +1,11 @@
 //! `aspecta ik`: the inverse problem.
 
-use super::queries::{out_of_reach, queries};
+use super::queries::queries;
 use super::solutions::{self, Found, Unknown};
+use super::solve;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
-use crate::output::{FormatArgs, note};
+use crate::output::ShownArgs;
 use clap::Args;
 use std::io::Write;
 
@@ -18,11 +19,8 @@ pub struct Ik {
     /// Only the solution in this working mode, such as `+-`
     #[arg(long, allow_hyphen_values = true)]
     mode: Option<String>,
-    /// Angles of the input and of the table are in degrees
-    #[arg(long)]
-    deg: bool,
     #[command(flatten)]
-    format: FormatArgs,
+    shown: ShownArgs,
 }
 
 #[derive(Args)]
@@ -43,19 +41,12 @@ impl Ik {
         let layout = [Columns::pose(&robot)];
         let (pose, file) = (self.input.pose.as_deref(), self.input.file.as_deref());
         let mut found = Vec::new();
-        for query in queries("--pose", pose, file, &layout, self.deg)? {
-            let mut solutions = robot.inverse(&query.values)?;
-            if solutions.is_empty() {
-                let why = out_of_reach(&robot, &query.values)?;
-                let Some(line) = query.line else {
-                    return Err(Failure::Input(format!("the pose is {why}")));
-                };
-                note(&format!("line {line}: {why}"));
-            }
+        for query in queries("--pose", pose, file, &layout, self.shown.deg)? {
+            let mut solutions = solve::inverse(&robot, &query.values, query.line)?;
             solutions.retain(|s| mode.is_none_or(|m| s.mode == m));
             found.push(Found { query, solutions, complete: None });
         }
-        solutions::print(out, &robot, Unknown::Joints, &found, self.format.format(), self.deg)?;
+        solutions::print(out, &robot, Unknown::Joints, &found, self.shown.format(), self.shown.deg)?;
         Ok(Answer::from(found.iter().all(|f| !f.solutions.is_empty())))
     }
 }

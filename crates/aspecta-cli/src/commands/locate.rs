@@ -2,14 +2,13 @@
 
 use super::mapping::{Making, Source};
 use super::places;
-use super::queries::{Query, out_of_reach, queries};
+use super::queries::{Query, queries};
 use super::solutions::Found;
-use super::watch;
+use super::{solve, watch};
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
-use crate::output::{FormatArgs, note};
+use crate::output::{ShownArgs, note};
 use aspecta::aspect::Analysis;
-use aspecta::kinematics::DirectSolutions;
 use aspecta::robot::Robot;
 use clap::Args;
 use std::collections::BTreeSet;
@@ -31,14 +30,11 @@ pub struct Locate {
     mode: Option<String>,
     #[command(flatten)]
     making: Making,
-    /// Angles of the input and of the table are in degrees
-    #[arg(long)]
-    deg: bool,
     /// Number of threads [default: all cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
     #[command(flatten)]
-    format: FormatArgs,
+    shown: ShownArgs,
 }
 
 #[derive(Args)]
@@ -70,7 +66,7 @@ impl Locate {
                  answers at once"
             ));
         }
-        let known = places::print(out, &map, &found, self.format.format(), self.deg)?;
+        let known = places::print(out, &map, &found, self.shown.format(), self.shown.deg)?;
         Ok(Answer::from(known && found.iter().all(|f| !f.solutions.is_empty())))
     }
 
@@ -84,39 +80,17 @@ impl Locate {
         let joints = self.joints || q.is_some();
         let (option, layout, value) =
             if joints { ("--q", Columns::joints(robot), q) } else { ("--pose", Columns::pose(robot), pose) };
-        let asked = queries(option, value.as_deref(), file.as_deref(), &[layout], self.deg)?;
-        let solve = if joints { direct } else { inverse };
-        let mut found =
-            asked.into_iter().map(|query| solve(robot, query)).collect::<Result<Vec<_>, Failure>>()?;
-        for found in &mut found {
-            found.solutions.retain(|s| mode.is_none_or(|m| s.mode == m));
-        }
-        Ok(found)
+        let asked = queries(option, value.as_deref(), file.as_deref(), &[layout], self.shown.deg)?;
+        let solved = |query: Query| {
+            if joints {
+                return solve::direct(robot, query, mode);
+            }
+            let mut solutions = solve::inverse(robot, &query.values, query.line)?;
+            solutions.retain(|s| mode.is_none_or(|m| s.mode == m));
+            Ok(Found { query, solutions, complete: None })
+        };
+        asked.into_iter().map(solved).collect()
     }
-}
-
-fn inverse(robot: &Robot, query: Query) -> Result<Found, Failure> {
-    let solutions = robot.inverse(&query.values)?;
-    if solutions.is_empty() {
-        let why = out_of_reach(robot, &query.values)?;
-        match query.line {
-            None => return Err(Failure::Input(format!("the pose is {why}"))),
-            Some(line) => note(&format!("line {line}: {why}")),
-        }
-    }
-    Ok(Found { query, solutions, complete: None })
-}
-
-fn direct(robot: &Robot, query: Query) -> Result<Found, Failure> {
-    let DirectSolutions { solutions, complete } = match (robot.direct_certified(&query.values), query.line) {
-        (Ok(found), _) => found,
-        (Err(e), None) => return Err(e.into()),
-        (Err(e), Some(line)) => {
-            note(&format!("line {line}: {e}"));
-            DirectSolutions { solutions: Vec::new(), complete: false }
-        }
-    };
-    Ok(Found { query, solutions, complete: Some(complete) })
 }
 
 /// The aspects in which these configurations lie, or may.

@@ -21,6 +21,7 @@ mod regions;
 mod robots;
 mod schema;
 mod solutions;
+mod solve;
 mod state;
 mod summary;
 mod target;

@@ -1,10 +1,10 @@
 //! Prints where configurations lie.
 
-use super::queries::Labels;
+use super::queries::{self, Labels};
 use super::solutions::Found;
 use crate::failure::Failure;
 use crate::input::Columns;
-use crate::output::{Align, FORMAT_VERSION, Format, Table, exact, json};
+use crate::output::{Align, Format, Table, exact};
 use aspecta::aspect::DetSign;
 use aspecta::domain::{Map, Nowhere};
 use aspecta::kinematics::{Solution, WorkingMode};
@@ -76,24 +76,7 @@ fn why(robot: &Robot, nowhere: &Nowhere) -> String {
 }
 
 #[derive(Serialize)]
-struct One<'a> {
-    format_version: u32,
-    robot: &'a str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    complete: Option<bool>,
-    places: Vec<Place<'a>>,
-}
-
-#[derive(Serialize)]
-struct Many<'a> {
-    format_version: u32,
-    robot: &'a str,
-    results: Vec<Answered<'a>>,
-}
-
-#[derive(Serialize)]
-struct Answered<'a> {
-    line: u64,
+struct Answer<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     complete: Option<bool>,
     places: Vec<Place<'a>>,
@@ -122,21 +105,11 @@ fn print_json(
     out: &mut dyn Write,
     map: &Map,
     found: &[Found],
-    mut places: Vec<Vec<Place<'_>>>,
+    places: Vec<Vec<Place<'_>>>,
 ) -> Result<(), Failure> {
-    let (format_version, robot) = (FORMAT_VERSION, map.robot.name.as_str());
-    if let [Found { complete, query, .. }] = found
-        && query.line.is_none()
-    {
-        return json(out, &One { format_version, robot, complete: *complete, places: places.remove(0) });
-    }
-    let answered = found.iter().zip(places);
-    let results = answered.map(|(f, places)| Answered {
-        line: f.query.line.unwrap_or_default(),
-        complete: f.complete,
-        places,
-    });
-    json(out, &Many { format_version, robot, results: results.collect() })
+    let answers = found.iter().zip(places);
+    let answers = answers.map(|(f, places)| (f.query.line, Answer { complete: f.complete, places }));
+    queries::print_json(out, &map.robot, answers.collect())
 }
 
 fn print_csv(

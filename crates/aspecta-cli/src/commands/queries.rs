@@ -2,8 +2,10 @@
 
 use crate::failure::Failure;
 use crate::input::{self, Columns};
-use crate::output;
+use crate::output::{self, FORMAT_VERSION};
 use aspecta::robot::Robot;
+use serde::Serialize;
+use std::io::Write;
 
 /// One vector asked about.
 pub struct Query {
@@ -27,6 +29,44 @@ pub fn queries(
     }
     let values = input::list(option, value.unwrap_or_default(), &layouts[0], degrees)?;
     Ok(vec![Query { line: None, values }])
+}
+
+/// JSON: what was found of one vector, at the top; or of many, a list with their lines.
+pub fn print_json<T: Serialize>(
+    out: &mut dyn Write,
+    robot: &Robot,
+    mut answers: Vec<(Option<u64>, T)>,
+) -> Result<(), Failure> {
+    let (format_version, robot) = (FORMAT_VERSION, robot.name.as_str());
+    if matches!(answers[..], [(None, _)])
+        && let Some((_, answer)) = answers.pop()
+    {
+        return output::json(out, &One { format_version, robot, answer });
+    }
+    let results = answers.into_iter().map(|(line, answer)| InLine { line: line.unwrap_or_default(), answer });
+    output::json(out, &Many { format_version, robot, results: results.collect() })
+}
+
+#[derive(Serialize)]
+struct One<'a, T> {
+    format_version: u32,
+    robot: &'a str,
+    #[serde(flatten)]
+    answer: T,
+}
+
+#[derive(Serialize)]
+struct Many<'a, T> {
+    format_version: u32,
+    robot: &'a str,
+    results: Vec<InLine<T>>,
+}
+
+#[derive(Serialize)]
+struct InLine<T> {
+    line: u64,
+    #[serde(flatten)]
+    answer: T,
 }
 
 /// Which legs do not reach `pose`, in a sentence.

@@ -1,9 +1,9 @@
 //! Prints the solutions of `ik` and `fk`.
 
-use super::queries::{Labels, Query, det_a_unit};
+use super::queries::{self, Labels, Query, det_a_unit};
 use crate::failure::Failure;
 use crate::input::Columns;
-use crate::output::{Align, FORMAT_VERSION, Format, Table, exact, json, number};
+use crate::output::{Align, Format, Table, exact, number};
 use aspecta::kinematics::Solution;
 use aspecta::robot::Robot;
 use serde::Serialize;
@@ -44,26 +44,9 @@ pub fn print(
     }
 }
 
+/// What JSON says of a vector asked about: in a file, the vector too, `pose` for `ik`, `q` for `fk`.
 #[derive(Serialize)]
-struct One<'a> {
-    format_version: u32,
-    robot: &'a str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    complete: Option<bool>,
-    solutions: &'a [Solution],
-}
-
-#[derive(Serialize)]
-struct Many<'a> {
-    format_version: u32,
-    robot: &'a str,
-    results: Vec<Answered<'a>>,
-}
-
-/// `pose` for `ik`, `q` for `fk`: the vector asked about.
-#[derive(Serialize)]
-struct Answered<'a> {
-    line: u64,
+struct Answer<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     pose: Option<&'a [f64]>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -74,18 +57,12 @@ struct Answered<'a> {
 }
 
 fn print_json(out: &mut dyn Write, robot: &Robot, unknown: Unknown, found: &[Found]) -> Result<(), Failure> {
-    let format_version = FORMAT_VERSION;
-    let robot = &robot.name;
-    if let [Found { query: Query { line: None, .. }, solutions, complete }] = found {
-        return json(out, &One { format_version, robot, complete: *complete, solutions });
-    }
-    let results = found.iter().map(|f| {
-        let given = Some(f.query.values.as_slice());
+    let answers = found.iter().map(|f| {
+        let given = f.query.line.map(|_| f.query.values.as_slice());
         let (pose, q) = if unknown == Unknown::Joints { (given, None) } else { (None, given) };
-        let line = f.query.line.unwrap_or_default();
-        Answered { line, pose, q, complete: f.complete, solutions: &f.solutions }
+        (f.query.line, Answer { pose, q, complete: f.complete, solutions: &f.solutions })
     });
-    json(out, &Many { format_version, robot, results: results.collect() })
+    queries::print_json(out, robot, answers.collect())
 }
 
 fn print_csv(out: &mut dyn Write, robot: &Robot, found: &[Found]) -> Result<(), Failure> {

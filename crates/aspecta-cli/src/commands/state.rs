@@ -1,9 +1,10 @@
 //! `aspecta state`: where a configuration stands among working modes and singularities.
 
-use super::queries::{Labels, Query, det_a_unit, out_of_reach, queries};
+use super::queries::{self, Labels, Query, det_a_unit, queries};
+use super::solve;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
-use crate::output::{Align, FORMAT_VERSION, Format, FormatArgs, Table, exact, json, note, number};
+use crate::output::{Align, Format, ShownArgs, Table, exact, note, number};
 use aspecta::kinematics::{self, WorkingMode};
 use aspecta::robot::Robot;
 use clap::Args;
@@ -26,11 +27,8 @@ pub struct State {
     /// Only the inverse solution in this working mode, such as `+-`
     #[arg(long, allow_hyphen_values = true)]
     mode: Option<String>,
-    /// Angles of the input and of the table are in degrees
-    #[arg(long)]
-    deg: bool,
     #[command(flatten)]
-    format: FormatArgs,
+    shown: ShownArgs,
 }
 
 #[derive(Args)]
@@ -56,20 +54,20 @@ impl State {
         let mode = self.mode.as_deref().map(|m| input::mode(&robot, m)).transpose()?;
         let pose = Columns::pose(&robot);
         let joints = Columns::joints(&robot);
-        let q = self.q.as_deref().map(|q| input::list("--q", q, &joints, self.deg)).transpose()?;
+        let q = self.q.as_deref().map(|q| input::list("--q", q, &joints, self.shown.deg)).transpose()?;
         let layouts = [pose.clone().and(&joints), pose];
         // A list is a pose alone, a row of a file may be either.
         let layouts = if self.input.pose.is_some() { &layouts[1..] } else { &layouts[..] };
         let (pose, file) = (self.input.pose.as_deref(), self.input.file.as_deref());
         let mut found = Vec::new();
-        for query in queries("--pose", pose, file, layouts, self.deg)? {
+        for query in queries("--pose", pose, file, layouts, self.shown.deg)? {
             let states = states(&robot, &query, q.as_deref(), mode)?;
             found.push(Found { query, states });
         }
-        match self.format.format() {
+        match self.shown.format() {
             Format::Json => print_json(out, &robot, &found)?,
             Format::Csv => print_csv(out, &robot, &found)?,
-            Format::Table => print_table(out, &robot, &found, self.deg)?,
+            Format::Table => print_table(out, &robot, &found, self.shown.deg)?,
         }
         Ok(Answer::from(found.iter().all(sound)))
     }
@@ -90,12 +88,7 @@ fn states(
     if q.is_some() || !given.is_empty() {
         return Ok(vec![robot.state(pose, given)?]);
     }
-    let solutions = robot.inverse(pose)?;
-    if solutions.is_empty() {
-        let why = out_of_reach(robot, pose)?;
-        let Some(line) = query.line else { return Err(Failure::Input(format!("the pose is {why}"))) };
-        note(&format!("line {line}: {why}"));
-    }
+    let solutions = solve::inverse(robot, pose, query.line)?;
     let wanted = solutions.iter().filter(|s| mode.is_none_or(|m| s.mode == m));
     Ok(wanted.map(|s| robot.state(pose, &s.q)).collect::<Result<_, _>>()?)
 }
@@ -115,34 +108,13 @@ fn sound(found: &Found) -> bool {
 }
 
 #[derive(Serialize)]
-struct One<'a> {
-    format_version: u32,
-    robot: &'a str,
-    states: &'a [kinematics::State],
-}
-
-#[derive(Serialize)]
-struct Many<'a> {
-    format_version: u32,
-    robot: &'a str,
-    results: Vec<Answered<'a>>,
-}
-
-#[derive(Serialize)]
-struct Answered<'a> {
-    line: u64,
+struct States<'a> {
     states: &'a [kinematics::State],
 }
 
 fn print_json(out: &mut dyn Write, robot: &Robot, found: &[Found]) -> Result<(), Failure> {
-    let format_version = FORMAT_VERSION;
-    let robot = &robot.name;
-    if let [Found { query: Query { line: None, .. }, states }] = found {
-        return json(out, &One { format_version, robot, states });
-    }
-    let results =
-        found.iter().map(|f| Answered { line: f.query.line.unwrap_or_default(), states: &f.states });
-    json(out, &Many { format_version, robot, results: results.collect() })
+    let answers = found.iter().map(|f| (f.query.line, States { states: &f.states }));
+    queries::print_json(out, robot, answers.collect())
 }
 
 fn print_csv(out: &mut dyn Write, robot: &Robot, found: &[Found]) -> Result<(), Failure> {

@@ -4,7 +4,7 @@
 //! beyond the reach of the legs, and a contour meets the boundary H = 0 without a gap.
 
 use aspecta::kinematics::WorkingMode;
-use aspecta::kinematics::leg::{Drive, drive, eliminate};
+use aspecta::kinematics::leg::{drive, eliminate};
 use aspecta::kinematics::limits::{LegAt, margin};
 use aspecta::kinematics::placement::{Placement, determinant, out_of_frame, wrench};
 use aspecta::robot::{Platform, Robot};
@@ -60,10 +60,7 @@ fn barriers<const D: usize, const N: usize>(robot: &Robot, mode: WorkingMode, po
             reaches.push((Kind::Serial, closure.reach));
         }
         limits.extend(leg.limits.iter().map(|l| (Kind::Limit, margin(l, &at, sh, &placement))));
-        q.push(match drive(&leg.actuator, &span, &closure, sh) {
-            Drive::Angle { cos, sin, .. } => sin.atan2(cos),
-            Drive::Length(q) => q,
-        });
+        q.push(drive(&leg.actuator, &span, &closure, sh).value());
     }
     reaches.append(&mut limits);
     Barriers { det: determinant(&rows), margins: reaches, q }

@@ -24,6 +24,23 @@ pub struct FormatArgs {
     csv: bool,
 }
 
+/// How what commands find for the vectors they are asked about is shown.
+#[derive(Args, Clone, Copy)]
+pub struct ShownArgs {
+    /// Angles of the input and of the table are in degrees
+    #[arg(long)]
+    pub deg: bool,
+    #[command(flatten)]
+    format: FormatArgs,
+}
+
+impl ShownArgs {
+    /// The format asked for.
+    pub fn format(self) -> Format {
+        self.format.format()
+    }
+}
+
 /// How results are printed.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Format {

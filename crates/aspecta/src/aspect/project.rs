@@ -1,10 +1,10 @@
 //! Projections of an aspect: bounds of its W-aspect and of its Q-aspect.
 
-use crate::kinematics::leg::{Drive, drive};
+use crate::kinematics::leg::Drive;
 use crate::kinematics::modal::closures;
 use crate::kinematics::placement::Placement;
 use crate::kinematics::{WorkingMode, for_platform};
-use crate::num::{Interval, Scalar};
+use crate::num::Interval;
 use crate::paving::{BoxOf, Paving};
 use crate::robot::Robot;
 
@@ -87,15 +87,11 @@ fn joints_over<const D: usize, const N: usize>(
         x[k] = Interval::new(line(corner[a]), line(corner[a] + 1));
     }
     let legs = closures::<Interval, D, N>(robot, &Placement::at(robot.platform, &x));
-    let joint = |j: usize| {
-        let h = legs[j].closure.reach.sqrt();
-        let sh = if mode.sign(j) > 0 { h } else { -h };
-        match drive(&robot.legs[j].actuator, &legs[j].span, &legs[j].closure, sh) {
-            Drive::Angle { cos, sin, .. } => {
-                Interval::angle(cos, sin).unwrap_or(Interval::PI.hull(-Interval::PI))
-            }
-            Drive::Length(q) => q,
+    let joint = |j: usize| match legs[j].drive(&robot.legs[j], mode.sign(j)) {
+        Drive::Angle { cos, sin, .. } => {
+            Interval::angle(cos, sin).unwrap_or(Interval::PI.hull(-Interval::PI))
         }
+        Drive::Length(q) => q,
     };
     for (j, all) in ranges.iter_mut().enumerate() {
         all.push(joint(j));

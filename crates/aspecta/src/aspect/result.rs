@@ -186,6 +186,14 @@ pub enum DetSign {
 }
 
 impl DetSign {
+    /// The other one.
+    pub fn opposite(self) -> Self {
+        match self {
+            Self::Positive => Self::Negative,
+            Self::Negative => Self::Positive,
+        }
+    }
+
     /// +1 or −1.
     pub fn factor(self) -> i8 {
         match self {

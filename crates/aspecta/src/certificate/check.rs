@@ -53,11 +53,11 @@ pub enum Unsound {
 /// Numbers beyond this are not those of a robot.
 const GREATEST: f64 = 1e7;
 
-fn wanted(what: &'static str, found: usize, wanted: usize) -> Result<(), Unsound> {
+pub(crate) fn wanted(what: &'static str, found: usize, wanted: usize) -> Result<(), Unsound> {
     if found == wanted { Ok(()) } else { Err(Unsound::Count { what, found, wanted }) }
 }
 
-fn holds(fact: bool, complaint: &'static str) -> Result<(), Unsound> {
+pub(crate) fn holds(fact: bool, complaint: &'static str) -> Result<(), Unsound> {
     if fact { Ok(()) } else { Err(Unsound::Value(complaint)) }
 }
 

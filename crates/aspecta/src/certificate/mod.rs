@@ -6,7 +6,7 @@ mod check;
 mod tree;
 
 pub use check::Unsound;
-pub(crate) use check::check_robot;
+pub(crate) use check::{check_robot, holds, wanted};
 pub use tree::{DEEPEST, Entry, Leaf, Tree, TreeError};
 
 use crate::aspect::Scale;

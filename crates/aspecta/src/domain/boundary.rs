@@ -17,7 +17,7 @@ use crate::kinematics::modal::Constraint;
 use crate::kinematics::{WorkingMode, for_platform};
 use lattice::{Edge, Lattice, Tag};
 use rayon::prelude::*;
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Serialize};
 
 /// How far from its faces, in widths of the window, a vertex may be and count as placed.
 pub const PLACED: f64 = 1e-9;
@@ -38,20 +38,15 @@ pub enum Face {
 }
 
 /// A point of the boundary.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct BoundaryVertex {
     /// X, as [`crate::robot::Platform::coordinates`] orders it; glued angles in (−π, π].
     pub pose: Vec<f64>,
     /// The faces it lies on: one, or two or three that meet there.
     pub faces: [Option<Face>; 3],
     /// How far it is from the farthest of them: |function| / ‖gradient‖, coordinates counted in widths of the window.
-    /// Infinite where it cannot be told; null in JSON.
-    #[serde(deserialize_with = "or_infinity")]
+    /// Infinite where it cannot be told.
     pub offset: f64,
-}
-
-fn or_infinity<'de, D: Deserializer<'de>>(d: D) -> Result<f64, D::Error> {
-    Ok(Option::deserialize(d)?.unwrap_or(f64::INFINITY))
 }
 
 impl BoundaryVertex {
@@ -71,7 +66,7 @@ impl BoundaryVertex {
 }
 
 /// A segment or triangle of a mesh.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Simplex {
     /// Indices of its vertices; a segment's second stands twice.
     pub corners: [u32; 3],
@@ -89,7 +84,7 @@ impl Simplex {
 }
 
 /// The boundary of a W-aspect.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Boundary {
     /// [`crate::aspect::Aspect::id`].
     pub aspect: usize,
@@ -110,18 +105,14 @@ pub struct Boundary {
     pub unplaced: usize,
     /// Nodes of the grid in the class of which it is not known in which aspect they lie; they were left out.
     pub unassigned: usize,
-    /// Index of its class; none for one that was read from a file.
-    #[serde(skip, default = "no_class")]
+    /// Index of its class.
+    #[serde(skip)]
     pub(crate) class: usize,
     /// The diagonal of a cell of the grid, in widths of the window.
     #[serde(skip)]
     pub(crate) cell: f64,
     #[serde(skip)]
     lattice: Lattice,
-}
-
-fn no_class() -> usize {
-    usize::MAX
 }
 
 /// Why there is no boundary.

@@ -29,7 +29,7 @@ pub const APART: f64 = 1e-5;
 pub const SAME_JOINTS: f64 = 1e-9;
 
 /// A point of a characteristic surface.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct CharacteristicVertex {
     /// X′, strictly inside the aspect. Only where X lies on a limit of a driven joint does X′ lie on the same limit.
     pub pose: Vec<f64>,
@@ -38,7 +38,7 @@ pub struct CharacteristicVertex {
 }
 
 /// The characteristic surfaces of an aspect: polylines in two dimensions, triangle meshes in three.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Characteristic {
     /// [`crate::aspect::Aspect::id`].
     pub aspect: usize,

@@ -73,6 +73,26 @@ impl<const D: usize, const N: usize> Field<'_, D, N> {
         found
     }
 
+    /// The sign of det A at x, whatever that of the class, if all else is positive.
+    ///
+    /// # Errors
+    /// The first other function that is not positive, or det A where it is zero.
+    pub fn sign_at(&self, x: &[f64; N]) -> Result<DetSign, Face> {
+        let mut found = Err(Face::Of(Constraint::Det));
+        self.visit::<f64>(x, 0, |face, value| {
+            // A NaN has no sign.
+            let positive = value > 0.0;
+            match face {
+                Face::Of(Constraint::Det) if positive => found = Ok(self.sign),
+                Face::Of(Constraint::Det) if value < 0.0 => found = Ok(self.sign.opposite()),
+                _ if !positive => found = Err(face),
+                _ => {}
+            }
+            positive
+        });
+        found
+    }
+
     /// Visits every function at `x`; the legs in the bit set `flat` are taken to be at their serial singularity, with
     /// h = 0. `visit` returns whether to go on.
     fn visit<T: Scalar>(&self, x: &[T; N], flat: u8, mut visit: impl FnMut(Face, T) -> bool) {

@@ -2,6 +2,7 @@
 
 use super::grid::Grid;
 use super::sheet::Sheet;
+use crate::num::padded;
 use std::collections::BTreeSet;
 
 /// Not in the aspect.
@@ -97,9 +98,4 @@ impl Labels {
         }
         pairs
     }
-}
-
-/// A pose in three coordinates, those beyond the robot's 0.
-pub(super) fn padded(pose: &[f64]) -> [f64; 3] {
-    std::array::from_fn(|k| pose.get(k).copied().unwrap_or(0.0))
 }

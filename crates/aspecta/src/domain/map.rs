@@ -19,6 +19,7 @@ use crate::aspect::{Analysis, Count, DetSign, Measure};
 use crate::kinematics::modal::Constraint;
 use crate::kinematics::segment::{Along, along};
 use crate::kinematics::{KinematicsError, WorkingMode, for_platform};
+use crate::num::padded;
 use crate::robot::{Robot, Window};
 use serde::{Deserialize, Serialize};
 
@@ -168,7 +169,7 @@ impl Map {
         let grid = &domains.labels.grid;
         let mut corner = None;
         grid.around(pose, |node| corner = Some(node));
-        self.is_joined(class, pose, &grid.turned_to(&super::labels::padded(pose), corner?)).then_some(number)
+        self.is_joined(class, pose, &grid.turned_to(&padded(pose), corner?)).then_some(number)
     }
 
     /// The aspect of a pose of a class.
@@ -207,18 +208,11 @@ fn sign_at<const D: usize, const N: usize>(
     pose: &[f64],
     mode: WorkingMode,
 ) -> Result<DetSign, Nowhere> {
-    let x: [f64; N] = std::array::from_fn(|k| pose[k]);
-    for sign in [DetSign::Positive, DetSign::Negative] {
-        let field = Field::<D, N> { robot: &map.robot, mode, sign, window: &map.window };
-        match field.violated(&x, &[]) {
-            None => return Ok(sign),
-            Some(Face::Of(Constraint::Det)) => {}
-            Some(Face::Of(Constraint::Reach(leg))) => return Err(Nowhere::OutOfReach(leg + 1)),
-            Some(Face::Of(Constraint::Limit(leg, limit))) => {
-                return Err(Nowhere::Limit { leg: leg + 1, limit: limit + 1 });
-            }
-            Some(Face::Cut { .. }) => return Err(Nowhere::Window),
-        }
-    }
-    Err(Nowhere::Singular)
+    let field = Field::<D, N> { robot: &map.robot, mode, sign: DetSign::Positive, window: &map.window };
+    field.sign_at(&std::array::from_fn(|k| pose[k])).map_err(|face| match face {
+        Face::Of(Constraint::Det) => Nowhere::Singular,
+        Face::Of(Constraint::Reach(leg)) => Nowhere::OutOfReach(leg + 1),
+        Face::Of(Constraint::Limit(leg, limit)) => Nowhere::Limit { leg: leg + 1, limit: limit + 1 },
+        Face::Cut { .. } => Nowhere::Window,
+    })
 }

@@ -1,9 +1,10 @@
 //! Basic regions on a grid, and which of their images coincide.
 
 use super::grid::Grid;
-use super::labels::{Labels, OUTSIDE, padded};
+use super::labels::{Labels, OUTSIDE};
 use super::sheet::{Match, Sheet};
 use crate::aspect::UnionFind;
+use crate::num::padded;
 use crate::paving::{Control, Progress};
 use rayon::prelude::*;
 use std::collections::BTreeMap;

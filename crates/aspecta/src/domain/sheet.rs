@@ -4,7 +4,7 @@ use super::field::Field;
 use super::grid::Grid;
 use crate::aspect::{Analysis, DetSign};
 use crate::kinematics::{WorkingMode, for_platform};
-use crate::num::without_turns;
+use crate::num::{padded, without_turns};
 use crate::robot::{Robot, Window};
 use arrayvec::ArrayVec;
 
@@ -86,7 +86,7 @@ impl<'a> Sheet<'a> {
         let mut others = ArrayVec::new();
         self.others(pose, &joints, |other| {
             // The direct model never has more.
-            let _ = others.try_push(std::array::from_fn(|k| other.get(k).copied().unwrap_or(0.0)));
+            let _ = others.try_push(padded(other));
         });
         Some(others)
     }
@@ -98,7 +98,7 @@ impl<'a> Sheet<'a> {
         let of_aspect = poses
             .iter()
             .filter(|pose| self.joints(pose).is_some_and(|found| self.is_posture(pose, &found, joints)));
-        of_aspect.map(|pose| std::array::from_fn(|k| pose.get(k).copied().unwrap_or(0.0))).collect()
+        of_aspect.map(padded).collect()
     }
 
     /// Follows the other poses with the joint vectors along a segment from one end to the other: which of `of_b` each of `of_a` becomes.
@@ -149,11 +149,7 @@ impl<'a> Sheet<'a> {
     /// Which pose of `to` each of `from` is nearest to, if each is so near that it can have moved there, and no two to one.
     fn nearest(&self, grid: &Grid, from: &[[f64; 3]], to: &[[f64; 3]]) -> Option<Match> {
         let gap = |x: &[f64; 3], y: &[f64; 3]| {
-            let part = |k: usize| {
-                let gap = if self.window.angles[k] { without_turns(x[k] - y[k]) } else { x[k] - y[k] };
-                gap.abs() / grid.step[k]
-            };
-            (0..grid.axes()).map(part).fold(0.0, f64::max)
+            (0..grid.axes()).map(|k| self.apart(k, x[k], y[k]) / grid.step[k]).fold(0.0, f64::max)
         };
         let mut found = Match::new();
         for x in from {
@@ -169,11 +165,13 @@ impl<'a> Sheet<'a> {
     /// The greatest difference of two poses, coordinate by coordinate in parts of the window.
     fn gap(&self, a: &[f64], b: &[f64]) -> f64 {
         let window = self.window;
-        let part = |k: usize| {
-            let gap = if window.angles[k] { without_turns(a[k] - b[k]) } else { a[k] - b[k] };
-            gap.abs() / (window.ranges[k].1 - window.ranges[k].0)
-        };
-        (0..a.len()).map(part).fold(0.0, f64::max)
+        let width = |k: usize| window.ranges[k].1 - window.ranges[k].0;
+        (0..a.len()).map(|k| self.apart(k, a[k], b[k]) / width(k)).fold(0.0, f64::max)
+    }
+
+    /// How far two values of coordinate `k` are apart, full turns not counted.
+    fn apart(&self, k: usize, a: f64, b: f64) -> f64 {
+        (if self.window.angles[k] { without_turns(a - b) } else { a - b }).abs()
     }
 
     /// Whether the joint vector `found` of a pose in this mode is the one asked for, leg by leg nearer to it than that of the
@@ -200,8 +198,4 @@ fn in_class<const D: usize, const N: usize>(sheet: &Sheet<'_>, pose: &[f64]) -> 
 fn turned_over<const D: usize, const N: usize>(sheet: &Sheet<'_>, pose: &[f64]) -> Joints {
     let field = sheet.field::<D, N>(sheet.mode.opposite());
     padded(&field.joints(&std::array::from_fn(|k| pose[k]), &[None; 3]))
-}
-
-fn padded(joints: &[f64]) -> Joints {
-    std::array::from_fn(|j| joints.get(j).copied().unwrap_or(0.0))
 }

@@ -6,7 +6,7 @@
 
 use super::WorkingMode;
 use super::chart::Folded;
-use super::leg::{Closure, eliminate};
+use super::leg::{Closure, Drive, drive, eliminate};
 use super::limits::{LegAt, margin};
 use super::placement::{Placement, determinant, minor, out_of_frame, wrench};
 use crate::num::{Scalar, each};
@@ -52,6 +52,11 @@ impl<T: Scalar, const D: usize> LegClosure<T, D> {
                 [h, -h]
             }
         }
+    }
+
+    /// The driven joint in the posture named by `sign`.
+    pub fn drive(&self, leg: &Leg, sign: i8) -> Drive<T> {
+        drive(&leg.actuator, &self.span, &self.closure, self.heights()[usize::from(sign < 0)])
     }
 
     /// Whether [`Closure::weight`] varies with the pose.

@@ -9,7 +9,7 @@ use serde::Serialize;
 ///
 /// A translating platform reaches X with f_i = ‖X − P_i(q_i)‖² − M², where P_i = B_i − C_i runs on a circle (a line for sliders). If m
 /// of these meet in a point P, then with the joints standing there X may be anywhere on the sphere round P with radius M: the
-/// m rods are parallel, A has rank n − m + 1, and det A vanishes to order m − 1, on a surface, in every working mode. For m ≥ 3 its sign need not
+/// m rods are parallel, A has rank n − m + 1, and det A vanishes to order m − 1, on a surface, in each working mode on a part of it. For m ≥ 3 its sign need not
 /// change there, and 0 is no regular value of it (docs/theory.md, section 5): no paving decides the boxes on the sphere.
 ///
 /// Every Delta whose legs are placed symmetrically round an axis has two such points on it, if its cranks are long enough and not

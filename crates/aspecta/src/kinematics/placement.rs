@@ -188,7 +188,7 @@ pub fn displacement_row<T: Scalar, const N: usize>(
     turn: &[(T, T); N],
 ) -> [T; N] {
     let mut rates = *row;
-    if matches!(platform, Platform::TurningBody | Platform::FreeBody) {
+    if platform.turns_in_space() {
         let (x, y, z) = (N - 3, N - 2, N - 1);
         let ((sin_y, cos_y), (sin_z, cos_z)) = (turn[y], turn[z]);
         rates[x] = (row[x] * cos_z + row[y] * sin_z) * cos_y - row[z] * sin_y;

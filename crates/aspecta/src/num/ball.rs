@@ -161,14 +161,8 @@ impl Div for Ball {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::num::two_sum;
     use proptest::prelude::*;
-
-    /// x + y = s + e exactly (TwoSum), so the exact sum is known without big numbers.
-    fn two_sum(x: f64, y: f64) -> (f64, f64) {
-        let s = x + y;
-        let b = s - x;
-        (s, (x - (s - b)) + (y - b))
-    }
 
     /// Whether s + e exactly, |e| far below |s|, lies in `b`, judged with room for nothing but the sign of e.
     fn holds(b: Ball, s: f64, e: f64) -> bool {

@@ -257,14 +257,8 @@ impl std::fmt::Display for Interval {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::num::two_sum;
     use proptest::prelude::*;
-
-    /// x + y = s + e exactly (TwoSum), so the exact sum is known without big numbers.
-    fn two_sum(x: f64, y: f64) -> (f64, f64) {
-        let s = x + y;
-        let b = s - x;
-        (s, (x - (s - b)) + (y - b))
-    }
 
     /// Whether the exact number s + e (|e| far below |s|) lies in `i`.
     fn holds(i: Interval, s: f64, e: f64) -> bool {

@@ -125,7 +125,20 @@ pub fn dot_constant<T: Scalar, const D: usize>(c: &[Interval], a: &[T; D]) -> T 
     sum.unwrap_or_else(T::zero)
 }
 
+/// Numbers, and zeros after them; those that do not fit are left out.
+pub(crate) fn padded<const K: usize>(values: &[f64]) -> [f64; K] {
+    std::array::from_fn(|k| values.get(k).copied().unwrap_or(0.0))
+}
+
 /// An angle without its full turns: in [−π, π].
 pub fn without_turns(angle: f64) -> f64 {
     angle - std::f64::consts::TAU * (angle / std::f64::consts::TAU).round()
+}
+
+/// x + y = s + e exactly (TwoSum), so that tests know the exact sum without big numbers.
+#[cfg(test)]
+fn two_sum(x: f64, y: f64) -> (f64, f64) {
+    let s = x + y;
+    let b = s - x;
+    (s, (x - (s - b)) + (y - b))
 }

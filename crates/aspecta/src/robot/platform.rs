@@ -85,6 +85,11 @@ impl Platform {
         }
     }
 
+    /// Whether it turns about more than one axis: its orientation then has no three coordinates without singularity.
+    pub const fn turns_in_space(self) -> bool {
+        matches!(self, Self::TurningBody | Self::FreeBody)
+    }
+
     /// The name used in robot files.
     pub const fn name(self) -> &'static str {
         match self {

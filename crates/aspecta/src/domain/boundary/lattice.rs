@@ -24,7 +24,7 @@ pub enum Tag {
 }
 
 /// The grid.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Lattice {
     /// The coordinates that vary.
     pub axes: Vec<usize>,

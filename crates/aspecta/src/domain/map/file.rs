@@ -2,7 +2,7 @@
 
 use super::{Map, MappedAspect, MappedClass};
 use crate::aspect::{Count, Measure};
-use crate::certificate::{Unsound, check_robot};
+use crate::certificate::{Unsound, check_robot, holds, wanted};
 use crate::domain::grid::Grid;
 use crate::domain::labels::{Labels, OUTSIDE};
 use crate::domain::mesh::Surfaces;
@@ -167,12 +167,9 @@ fn runs(region: &[u32]) -> Vec<(i64, usize)> {
 }
 
 fn region(grid: &Grid, runs: &[(i64, usize)]) -> Result<Vec<u32>, Unsound> {
-    let wanted = grid.len();
     let found = runs.iter().fold(0usize, |sum, run| sum.saturating_add(run.1));
-    if found != wanted {
-        return Err(Unsound::Count { what: "nodes of a grid", found, wanted });
-    }
-    let mut region = Vec::with_capacity(wanted);
+    wanted("nodes of a grid", found, grid.len())?;
+    let mut region = Vec::with_capacity(found);
     for &(name, count) in runs {
         let name = if name == -1 {
             OUTSIDE
@@ -182,10 +179,6 @@ fn region(grid: &Grid, runs: &[(i64, usize)]) -> Result<Vec<u32>, Unsound> {
         region.resize(region.len() + count, name);
     }
     Ok(region)
-}
-
-fn holds(fact: bool, complaint: &'static str) -> Result<(), Unsound> {
-    if fact { Ok(()) } else { Err(Unsound::Value(complaint)) }
 }
 
 impl MappedClass {

@@ -238,6 +238,9 @@ fn labelled<const D: usize, const N: usize>(
 
 /// Whether every joint is strictly within its limits at `pose` in `mode`.
 pub(crate) fn within_limits<const D: usize>(robot: &Robot, pose: &[f64], mode: WorkingMode) -> bool {
+    if robot.legs.iter().all(|leg| leg.limits.is_empty()) {
+        return true;
+    }
     let placement = Placement::<f64, D>::at(robot.platform, pose);
     robot.legs.iter().zip(mode.signs()).all(|(leg, sign)| {
         let span = placement.span(leg, &placement.arm(leg));

@@ -2,8 +2,9 @@
 
 use super::refusal::{BadInput, Refusal, StartError};
 use super::tube::{Located, Model, plain};
-use super::{Padded, check_numbers, in_stretches, padded, unpadded};
+use super::{Padded, between, check_numbers, in_stretches, unpadded};
 use crate::kinematics::{KinematicsError, WorkingMode, direct, for_platform};
+use crate::num::padded;
 use crate::robot::{Actuator, Robot};
 use nalgebra::SMatrix;
 
@@ -15,7 +16,6 @@ use nalgebra::SMatrix;
 #[derive(Clone, Debug)]
 pub struct Follower {
     robot: Robot,
-    limited: bool,
     /// What makes a displacement a number of order one.
     unit: Padded,
     state: State,
@@ -76,8 +76,7 @@ impl Follower {
         unit.iter_mut().zip(coordinates).filter(|(_, c)| !c.angle).for_each(|(unit, _)| *unit = length);
         let state =
             for_platform!(robot.platform, start(robot, &unit, pose, q)).ok_or(StartError::NoSolution)?;
-        let limited = robot.legs.iter().any(|leg| !leg.limits.is_empty());
-        Ok(Self { robot: robot.clone(), limited, unit, state })
+        Ok(Self { robot: robot.clone(), unit, state })
     }
 
     /// The robot.
@@ -162,7 +161,7 @@ fn advance<const D: usize, const N: usize>(follower: &mut Follower, q: &[f64]) -
     if proved < 1.0 {
         return Err(model.refusal(&last, &start.q, &goal, proved));
     }
-    let within_limits = !follower.limited || direct::within_limits::<D>(&follower.robot, &last.pose, mode);
+    let within_limits = direct::within_limits::<D>(&follower.robot, &last.pose, mode);
     follower.state = State::of(&last, mode);
     let [length_error, angle_error] = model.errors(&last);
     Ok(Step {
@@ -175,11 +174,6 @@ fn advance<const D: usize, const N: usize>(follower: &mut Follower, q: &[f64]) -
         angle_error,
         stretches,
     })
-}
-
-/// q₀ + t (q₁ − q₀), exactly q₁ at t = 1.
-fn between<const N: usize>(start: &[f64; N], goal: &[f64; N], t: f64) -> [f64; N] {
-    if t == 1.0 { *goal } else { std::array::from_fn(|j| start[j] + t * (goal[j] - start[j])) }
 }
 
 impl State {

@@ -1,12 +1,12 @@
 //! The inverse problem along a stream of poses.
 
 use super::refusal::{Refusal, StartError};
-use super::{Padded, check_numbers, in_stretches, padded, unpadded};
-use crate::kinematics::leg::{Drive, drive};
-use crate::kinematics::modal::{LegClosure, ModalRows, closures};
+use super::{Padded, between, check_numbers, in_stretches, unpadded};
+use crate::kinematics::leg::Drive;
+use crate::kinematics::modal::{ModalRows, closures};
 use crate::kinematics::placement::Placement;
 use crate::kinematics::{WorkingMode, direct, for_platform};
-use crate::num::{Interval, Scalar, each, without_turns};
+use crate::num::{Interval, Scalar, each, padded, without_turns};
 use crate::robot::Robot;
 
 /// Follows the inverse solution of one working mode: given the next pose, the joint vector in the same mode, certified,
@@ -14,7 +14,6 @@ use crate::robot::Robot;
 #[derive(Clone, Debug)]
 pub struct InverseFollower {
     robot: Robot,
-    limited: bool,
     mode: WorkingMode,
     pose: Padded,
     q: Padded,
@@ -58,8 +57,7 @@ impl InverseFollower {
         for (j, leg) in legs.iter().enumerate() {
             q[j] = leg.q[usize::from(mode.sign(j) < 0)].unwrap_or_default();
         }
-        let limited = robot.legs.iter().any(|leg| !leg.limits.is_empty());
-        Ok(Self { robot: robot.clone(), limited, mode, pose: padded(pose), q })
+        Ok(Self { robot: robot.clone(), mode, pose: padded(pose), q })
     }
 
     /// The robot.
@@ -122,7 +120,7 @@ fn advance<const D: usize, const N: usize>(
     if proved < 1.0 {
         return Err(refusal::<D, N>(robot, &segment, open, proved));
     }
-    let within_limits = !follower.limited || direct::within_limits::<D>(robot, &segment.goal, mode);
+    let within_limits = direct::within_limits::<D>(robot, &segment.goal, mode);
     (follower.pose, follower.q) = (padded(&segment.goal), padded(&q));
     Ok(JointStep { q: follower.q, dof: N, regular, within_limits, stretches })
 }
@@ -136,10 +134,7 @@ struct Segment<const N: usize> {
 impl<const N: usize> Segment<N> {
     /// In doubles; exact at both ends.
     fn at(&self, t: f64) -> [f64; N] {
-        if t == 1.0 {
-            return self.goal;
-        }
-        std::array::from_fn(|k| self.start[k] + t * (self.goal[k] - self.start[k]))
+        between(&self.start, &self.goal, t)
     }
 
     /// A box round the part t ∈ [from, to].
@@ -163,8 +158,7 @@ fn stretch<const D: usize, const N: usize>(
         if !at.closure.reach.is_positive() {
             return Err(j);
         }
-        let drive = drive(&robot.legs[j].actuator, &at.span, &at.closure, height(at, mode.sign(j)));
-        if let Drive::Angle { cos, sin, .. } = drive
+        if let Drive::Angle { cos, sin, .. } = at.drive(&robot.legs[j], mode.sign(j))
             && !Interval::angle(cos, sin).is_some_and(|angle| angle.width() < MOST_TURN)
         {
             return Err(j);
@@ -174,20 +168,10 @@ fn stretch<const D: usize, const N: usize>(
     Ok(ModalRows::<_, N>::new(robot, &legs, &heights).det(mode).sign() != 0)
 }
 
-/// s h.
-fn height<T: Scalar, const D: usize>(at: &LegClosure<T, D>, sign: i8) -> T {
-    let h = at.closure.reach.sqrt();
-    if sign > 0 { h } else { -h }
-}
-
 /// The joint vector of a pose in reach, angles in (−π, π].
 fn joints<const D: usize, const N: usize>(robot: &Robot, mode: WorkingMode, pose: &[f64; N]) -> [f64; N] {
     let legs = closures::<f64, D, N>(robot, &Placement::at(robot.platform, pose));
-    let joint = |j: usize| {
-        let at = &legs[j];
-        drive(&robot.legs[j].actuator, &at.span, &at.closure, height(at, mode.sign(j))).value()
-    };
-    std::array::from_fn(joint)
+    std::array::from_fn(|j| legs[j].drive(&robot.legs[j], mode.sign(j)).value())
 }
 
 /// Why there is no proof beyond t = `proved`, where `leg` (from 0) is in doubt: H, which is mostly linear where it
@@ -200,9 +184,7 @@ fn refusal<const D: usize, const N: usize>(
 ) -> Refusal {
     const APART: f64 = 1e-6;
     let reach = |t: f64| {
-        let pose: [f64; N] =
-            std::array::from_fn(|k| segment.start[k] + t * (segment.goal[k] - segment.start[k]));
-        closures::<f64, D, N>(robot, &Placement::at(robot.platform, &pose))[leg].closure.reach
+        closures::<f64, D, N>(robot, &Placement::at(robot.platform, &segment.at(t)))[leg].closure.reach
     };
     let most = robot.legs[leg].actuator.greatest_reach().unwrap_or(robot.characteristic_length().powi(2));
     let here = reach(proved);

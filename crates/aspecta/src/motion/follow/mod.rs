@@ -63,6 +63,7 @@ pub use direct::{Follower, Step};
 pub use inverse::{InverseFollower, JointStep};
 pub use refusal::{BadInput, Refusal, StartError};
 
+use crate::num::padded;
 use crate::robot::Robot;
 
 /// Stretches tried before a step is refused: what bounds the work of a step.
@@ -73,14 +74,13 @@ const SHORTEST: f64 = 1.0 / (1 << 20) as f64;
 /// Up to six coordinates, of which the first n count.
 type Padded = [f64; 6];
 
-fn padded(values: &[f64]) -> Padded {
-    let mut all = [0.0; 6];
-    all.iter_mut().zip(values).for_each(|(a, v)| *a = *v);
-    all
+fn unpadded<const N: usize>(values: &Padded) -> [f64; N] {
+    padded(values)
 }
 
-fn unpadded<const N: usize>(values: &Padded) -> [f64; N] {
-    std::array::from_fn(|k| values.get(k).copied().unwrap_or(0.0))
+/// a + t (b − a), exactly b at t = 1.
+fn between<const N: usize>(a: &[f64; N], b: &[f64; N], t: f64) -> [f64; N] {
+    if t == 1.0 { *b } else { std::array::from_fn(|k| a[k] + t * (b[k] - a[k])) }
 }
 
 /// Whether `values` are n numbers a robot can have.

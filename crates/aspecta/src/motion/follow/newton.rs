@@ -8,6 +8,7 @@ use nalgebra::{SMatrix, SVector};
 
 /// Chord steps after the one Newton step with a fresh Jacobian.
 const MOST_CHORDS: usize = 4;
+
 /// A pose and the inverse of A there.
 pub(super) struct Root<const N: usize> {
     pub pose: [f64; N],
@@ -90,7 +91,7 @@ pub(super) fn moved<const D: usize, const N: usize>(
     z: &SVector<f64, N>,
 ) -> [f64; N] {
     let mut to: [f64; N] = std::array::from_fn(|k| pose[k] + z[k]);
-    if !matches!(platform, Platform::TurningBody | Platform::FreeBody) {
+    if !platform.turns_in_space() {
         return to;
     }
     let z: [f64; N] = std::array::from_fn(|k| z[k]);

@@ -5,7 +5,7 @@ use super::{Padded, unpadded};
 use crate::kinematics::leg::equation_turned;
 use crate::kinematics::placement::{Placement, displacement_row, leg_gradient_turned, wrench};
 use crate::num::{Ball, Interval, Scalar, Slope, dot, each};
-use crate::robot::{Platform, Robot};
+use crate::robot::Robot;
 use nalgebra::SMatrix;
 
 /// (sin, cos) of an angle.
@@ -327,7 +327,7 @@ impl<'a, const D: usize, const N: usize> Model<'a, D, N> {
         let platform = self.robot.platform;
         let doubt: [Ball; N] = each!(|k| Ball::point(self.unit[k]) * Ball::about_zero(start.radius));
         let mut z: [Ball; N] = each!(|k| Ball::point(start.pose[k]) - Ball::point(pose[k]) + doubt[k]);
-        if matches!(platform, Platform::TurningBody | Platform::FreeBody) {
+        if platform.turns_in_space() {
             // R(z) = R(doubt) · R(start) · R(pose)ᵀ.
             let turn = doubt.map(Ball::small_sin_cos);
             let from = self.placement(&start.pose).displaced(platform, &doubt, &turn);

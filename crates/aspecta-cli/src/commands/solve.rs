@@ -1,0 +1,41 @@
+//! The inverse and direct problems as commands pose them: where there is no solution, they say why.
+
+use super::queries::{Query, out_of_reach};
+use super::solutions::Found;
+use crate::failure::Failure;
+use crate::output::note;
+use aspecta::kinematics::{DirectSolutions, Solution, WorkingMode};
+use aspecta::robot::Robot;
+
+/// All inverse solutions at a pose, given alone or in a line of a file: one bad row does not cost the others.
+pub fn inverse(robot: &Robot, pose: &[f64], line: Option<u64>) -> Result<Vec<Solution>, Failure> {
+    let solutions = robot.inverse(pose)?;
+    if solutions.is_empty() {
+        let why = out_of_reach(robot, pose)?;
+        let Some(line) = line else { return Err(Failure::Input(format!("the pose is {why}"))) };
+        note(&format!("line {line}: {why}"));
+    }
+    Ok(solutions)
+}
+
+/// All direct solutions of a joint vector, or those in a working mode.
+pub fn direct(robot: &Robot, query: Query, mode: Option<WorkingMode>) -> Result<Found, Failure> {
+    let DirectSolutions { mut solutions, complete } =
+        match (robot.direct_certified(&query.values), query.line) {
+            (Ok(found), _) => found,
+            (Err(e), None) => return Err(e.into()),
+            // One bad row does not cost the others.
+            (Err(e), Some(line)) => {
+                note(&format!("line {line}: {e}"));
+                return Ok(Found { query, solutions: Vec::new(), complete: Some(false) });
+            }
+        };
+    solutions.retain(|s| mode.is_none_or(|m| s.mode == m));
+    if solutions.is_empty() {
+        let place = query.line.map_or(String::new(), |line| format!("line {line}: "));
+        let which = mode.map_or(String::new(), |m| format!(" in working mode {m}"));
+        let proof = if complete { "" } else { " was found (that there is none is not proved)" };
+        note(&format!("{place}no direct solution{which}{proof}"));
+    }
+    Ok(Found { query, solutions, complete: Some(complete) })
+}
