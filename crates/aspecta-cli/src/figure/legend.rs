@@ -1,7 +1,7 @@
 //! What stands below pictures of regions: their colours and the lines.
 
 use super::barrier::Kind;
-use super::maps::{sample_line, styled_line, swatch};
+use super::maps::{line_style, sample_width, styled_line, swatch};
 use super::regions::{CHARACTERISTIC, Cut};
 use super::section::kind;
 use super::svg::{Anchor, Svg};
@@ -43,7 +43,8 @@ impl Legend<'_> {
 
     /// Height, pixels.
     pub fn height(&self) -> f64 {
-        LINE * (self.rows() + usize::from(self.entries.len() > LISTED) + 2) as f64
+        let lines = self.lines().iter().map(|line| line.at[1]).fold(0.0, f64::max);
+        LINE * (self.rows() + usize::from(self.entries.len() > LISTED) + 2) as f64 + lines
     }
 
     /// Draws it; the first line of text stands at `y`.
@@ -64,24 +65,38 @@ impl Legend<'_> {
             x = swatch(svg, [x, y], colour, text);
         }
         svg.text([x, y], Anchor::Start, 11.0, "", self.caption);
-        self.lines(svg, y + LINE);
+        for Line { at, style, text } in self.lines() {
+            styled_line(svg, [at[0], y + LINE + at[1]], style, &text);
+        }
     }
 
-    /// The kinds of lines there are.
-    fn lines(&self, svg: &mut Svg, y: f64) {
+    /// The kinds of lines there are, in as many rows as they need.
+    fn lines(&self) -> Vec<Line> {
         let names = [
             (Kind::Parallel, "det A = 0"),
             (Kind::Serial, "det B = 0"),
-            (Kind::Limit, "joint limit, window"),
+            (Kind::Limit, "joint limit or end of the window"),
         ];
-        let mut x = self.left;
-        for (of, text) in names {
-            if self.cut.boundary.simplices.iter().any(|s| kind(s.face) == of) {
-                x = sample_line(svg, [x, y], of, &format!("{}{text}", self.of));
+        let is_there = |of: Kind| self.cut.boundary.simplices.iter().any(|s| kind(s.face) == of);
+        let bounds = names.into_iter().filter(|(of, _)| is_there(*of));
+        let bounds = bounds.map(|(of, text)| (line_style(of), format!("{}{text}", self.of)));
+        let mut lines: Vec<Line> = Vec::new();
+        let mut next = [self.left, 0.0];
+        for (style, text) in bounds.chain(self.thin.map(|text| (CHARACTERISTIC, text.to_owned()))) {
+            let width = sample_width(&text);
+            if next[0] > self.left && next[0] + width > self.right {
+                next = [self.left, next[1] + LINE];
             }
+            lines.push(Line { at: next, style, text });
+            next[0] += width;
         }
-        if let Some(text) = self.thin {
-            styled_line(svg, [x, y], CHARACTERISTIC, text);
-        }
+        lines
     }
+}
+
+/// A sample of a line and what it is; its place from the left edge of the picture and the top of the samples.
+struct Line {
+    at: [f64; 2],
+    style: &'static str,
+    text: String,
 }

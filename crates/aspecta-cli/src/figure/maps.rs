@@ -227,7 +227,7 @@ fn copies(
     ((lo - most) / TAU).ceil() as i64..=((hi - least) / TAU).floor() as i64
 }
 
-fn line_style(kind: Kind) -> &'static str {
+pub(super) fn line_style(kind: Kind) -> &'static str {
     match kind {
         Kind::Serial => "fill:none;stroke:#222;stroke-width:1.2;stroke-dasharray:5 2.5;stroke-linejoin:round",
         Kind::Parallel => "fill:none;stroke:#222;stroke-width:1.4;stroke-linejoin:round",
@@ -278,7 +278,12 @@ pub(super) fn sample_line(svg: &mut Svg, at: [f64; 2], kind: Kind, text: &str) -
 pub(super) fn styled_line(svg: &mut Svg, at: [f64; 2], style: &str, text: &str) -> f64 {
     svg.line([at[0], at[1] - 4.0], [at[0] + 24.0, at[1] - 4.0], style);
     svg.text([at[0] + 30.0, at[1]], Anchor::Start, 11.0, "", text);
-    at[0] + 48.0 + 5.6 * text.chars().count() as f64
+    at[0] + sample_width(text)
+}
+
+/// From a sample line to the next, if this text stands at it.
+pub(super) fn sample_width(text: &str) -> f64 {
+    48.0 + 5.6 * text.chars().count() as f64
 }
 
 /// How many configurations of a set of classes lie over a place.

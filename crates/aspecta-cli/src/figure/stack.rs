@@ -21,7 +21,7 @@ use std::f64::consts::TAU;
 const COARSE: usize = 96;
 /// Share of the plane that a region must cover to be shown.
 const SHOWN: f64 = 5e-4;
-/// Most verticals, and pixels between them.
+/// Pixels between verticals, and most of them.
 const APART: f64 = 14.0;
 const VERTICALS: usize = 4;
 const VERTICAL: &str = "stroke:#222;stroke-width:0.9;stroke-dasharray:2 2.5";
@@ -85,16 +85,19 @@ pub fn stack(space: &JointSpace<'_>) -> String {
     svg.finish()
 }
 
-/// Where to hold the held joint: many regions with several solutions show, and large. Only joint vectors count all of whose solutions lie
-/// in known regions.
+/// Where to hold the held joint: many regions with several solutions show, and large; if none has several, many regions. Only joint vectors
+/// count all of whose solutions lie in known regions.
 fn fullest(space: &JointSpace<'_>) -> f64 {
-    let richness = |at: f64| -> f64 {
+    let richness = |at: f64| {
         let section = space.section(at, COARSE);
-        let is_sheer = |set: &[u32]| set.len() > 1 && set.iter().all(|region| *region != OUTSIDE);
-        space.pixels(&section, is_sheer).into_iter().map(|pixels| (pixels as f64).sqrt()).sum()
+        [2, 1].map(|least| -> f64 {
+            let is_sheer = |set: &[u32]| set.len() >= least && set.iter().all(|region| *region != OUTSIDE);
+            space.pixels(&section, is_sheer).into_iter().map(|pixels| (pixels as f64).sqrt()).sum()
+        })
     };
     let rich = space.places().into_iter().map(|at| (at, richness(at)));
-    rich.max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0.0, |(at, _)| at)
+    let richer = |a: &[f64; 2], b: &[f64; 2]| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1]));
+    rich.max_by(|a, b| richer(&a.1, &b.1)).map_or(0.0, |(at, _)| at)
 }
 
 /// The regions that cover enough of a section to be seen.
@@ -159,12 +162,13 @@ impl Stack<'_> {
         fill(svg, &self.view.chart, &self.space.groups(&self.section), |group| self.space.colour(group));
         self.lines.draw(svg, &self.view.chart);
         svg.close();
-        self.view.frame(svg);
         svg.text([LEFT - 40.0, self.view.bottom + 4.0], Anchor::End, 11.0, "font-weight:600", "Q");
         for (k, regions) in self.sheets.iter().enumerate() {
             self.rise(svg, k);
             self.sheet(svg, k + 1, regions);
         }
+        // Not under the sheets, which are not quite clear.
+        self.view.frame(svg);
         for (at, regions) in &self.verticals {
             self.label(svg, *at, regions);
         }
