@@ -112,6 +112,11 @@ fn the_certificate_of_a_slice_is_verified() {
     assert_verified(27, "3-rrr", &[(2, 0.0)]);
 }
 
+#[test]
+fn the_certificate_of_a_delta_is_verified() {
+    assert_verified(2, "irb-360", &[]);
+}
+
 // The five-bar of the paper.
 
 const PAPER: FiveBar = FiveBar { links: [[8.0, 5.0], [5.0, 8.0]], base: 9.0, missing: 0.0 };

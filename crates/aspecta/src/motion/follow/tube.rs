@@ -390,3 +390,6 @@ fn each_row<T: Scalar, const N: usize>(row: impl Fn(usize) -> [T; N]) -> [[T; N]
     }
     all
 }
+
+#[cfg(test)]
+mod tests;
