@@ -3,8 +3,9 @@
 
 use aspecta::aspect::{Analysis, DetSign, Options, Place, analyze};
 use aspecta::kinematics::WorkingMode;
+use aspecta::kinematics::demand::Demand;
 use aspecta::kinematics::modal::Constraint;
-use aspecta::kinematics::segment::{Along, along};
+use aspecta::kinematics::path::{Along, Curve, along};
 use aspecta::num::Interval;
 use aspecta::paving::{Budget, Control, Mark, Node, Paving, Stop};
 use aspecta::robot::{Actuator, Leg, Limit, Platform, Robot, catalogue};
@@ -454,7 +455,8 @@ fn segments_are_what_is_claimed() {
                 let at =
                     |t: f64| -> Vec<f64> { start.iter().zip(&end).map(|(a, b)| a + t * (b - a)).collect() };
                 let told = |t: f64| format!("{mode} {sign} t = {t} from {start:?} to {end:?} of {robot:?}");
-                match along(&robot, mode, sign.factor(), &start, &end, 3000) {
+                match along(&robot, &Demand::class(mode, sign.factor()), &Curve::segment(&start, &end), 3000)
+                {
                     Along::Inside => {
                         seen[0] += 1;
                         for t in (0..=400).map(|i| f64::from(i) / 400.0) {
@@ -475,6 +477,7 @@ fn segments_are_what_is_claimed() {
                             assert_ne!(member(&robot, mode, sign, &at(t)), Some(false), "{}", told(t));
                         }
                     }
+                    Along::Crossed { .. } => panic!("no leg was to cross"),
                     Along::Undecided { .. } => seen[2] += 1,
                 }
             }
@@ -493,7 +496,9 @@ fn the_constraint_named_is_the_one_that_fails() {
     legs[1].limits.push(at_least(5.0));
     let robot = Robot::new("two struts", Platform::PlanePoint, legs).unwrap();
     let mode = "--".parse().unwrap();
-    let decide = |end: f64, sign| along(&robot, mode, sign, &[-5.0, 3.0], &[end, 3.0], 100_000);
+    let decide = |end: f64, sign| {
+        along(&robot, &Demand::class(mode, sign), &Curve::segment(&[-5.0, 3.0], &[end, 3.0]), 100_000)
+    };
     let sign = robot.jacobians(&[-5.0, 3.0], &[34f64.sqrt(), 205f64.sqrt()]).unwrap().det_a().signum() as i8;
     assert!(matches!(decide(4.0, sign), Along::Undecided { constraint: Constraint::Limit(0, 0), .. }));
     let Along::Outside { constraint, from, to } = decide(7.0, sign) else {
@@ -503,7 +508,9 @@ fn the_constraint_named_is_the_one_that_fails() {
     assert_eq!(constraint, Constraint::Limit(1, 0));
     assert!(from <= 10.0 / 12.0 && 10.0 / 12.0 < to, "{from} {to}");
     // Well clear of the first limit nothing is in doubt before the failure.
-    let Along::Outside { from, to, .. } = along(&robot, mode, sign, &[1.0, 3.0], &[7.0, 3.0], 100_000) else {
+    let Along::Outside { from, to, .. } =
+        along(&robot, &Demand::class(mode, sign), &Curve::segment(&[1.0, 3.0], &[7.0, 3.0]), 100_000)
+    else {
         panic!()
     };
     assert!(from <= 4.0 / 6.0 && 4.0 / 6.0 < to && to - from < 1e-11, "{from} {to}");

@@ -1,12 +1,13 @@
 //! Merging pieces by certified ascent: from a small piece, climb U = log σ det A + Σ log h_j + Σ log c_k.
 //!
 //! U → −∞ at every boundary of S_{s,σ}, so a climb never leaves its aspect; each step is a segment proved by
-//! intervals to lie in S_{s,σ} ([`along`]). Pieces that a climb meets are one aspect with the piece it began in.
+//! intervals to lie in S_{s,σ} ([`crate::kinematics::path::along`]). Pieces that a climb meets are one aspect with the piece it began in.
 
 use super::components::{Components, UnionFind};
-use crate::kinematics::modal::{Constraint, constraints};
+use crate::kinematics::demand::{Demand, demands};
+use crate::kinematics::modal::Constraint;
+use crate::kinematics::path::Along;
 use crate::kinematics::placement::Placement;
-use crate::kinematics::segment::{Along, along};
 use crate::kinematics::{WorkingMode, for_platform};
 use crate::num::{Interval, Jet, Scalar};
 use crate::paving::{ClassSet, Control, Paving};
@@ -136,13 +137,14 @@ fn step<const D: usize, const N: usize>(
     height: f64,
     direction: &SVector<f64, N>,
 ) -> Option<SVector<f64, N>> {
+    let demand = Demand::class(class.mode, class.sign);
     let mut length = 1.0;
     for _ in 0..30 {
         let next = x + direction * length;
         let higher = potential::<f64, D, N>(robot, class, next.as_slice()).is_some_and(|u| u > height);
         if higher
             && paving.find(&|node| node.of_classes(class.bit), next.as_slice()).is_some()
-            && along(robot, class.mode, class.sign, x.as_slice(), next.as_slice(), EFFORT) == Along::Inside
+            && Along::is_inside(robot, &demand, [x.as_slice(), next.as_slice()], EFFORT)
         {
             return Some(next);
         }
@@ -196,8 +198,7 @@ fn potential<T: Logarithm, const D: usize, const N: usize>(
 ) -> Option<T> {
     let placement = Placement::<T, D>::at(robot.platform, x);
     let mut sum = Some(T::zero());
-    constraints::<T, D, N>(robot, &placement, class.mode, |constraint, value| {
-        let value = if constraint == Constraint::Det && class.sign < 0 { -value } else { value };
+    demands::<T, D, N>(robot, &placement, &Demand::class(class.mode, class.sign), |constraint, value| {
         let weight = if matches!(constraint, Constraint::Reach(_)) { 0.5 } else { 1.0 };
         sum = sum.filter(|_| value.number() > 0.0).map(|s| s + value.ln().scale(Interval::point(weight)));
         sum.is_some()

@@ -1,7 +1,7 @@
 //! A robot's map: what sections 3 and 4 of the paper have found about it, ready to be asked.
 //!
 //! A configuration (X, working mode) is looked up in three steps. Its class is a matter of signs, in doubles. Its aspect is that of a
-//! node of the grid next to it, to which [`along`] proves that the segment stays in the class (certified, as far as the node's own
+//! node of the grid next to it, to which [`crate::kinematics::path::along`] proves that the segment stays in the class (certified, as far as the node's own
 //! aspect is: [`Sheet`]); where a class has one aspect, it is that. Its basic region is that of the nodes round it if they agree, else that of a
 //! node to which the other poses with its joint vector can be followed: numerical, true to a cell of the grid.
 
@@ -16,8 +16,9 @@ use super::mesh::Surfaces;
 use super::result::Domains;
 use super::sheet::{Belongs, Sheet};
 use crate::aspect::{Analysis, Count, DetSign, Measure};
+use crate::kinematics::demand::Demand;
 use crate::kinematics::modal::Constraint;
-use crate::kinematics::segment::{Along, along};
+use crate::kinematics::path::Along;
 use crate::kinematics::{KinematicsError, WorkingMode, for_platform};
 use crate::num::padded;
 use crate::robot::{Robot, Window};
@@ -185,8 +186,8 @@ impl Map {
 
     /// Whether the segment between two poses is proved to stay in a class.
     fn is_joined(&self, class: &MappedClass, pose: &[f64], node: &[f64; 3]) -> bool {
-        let sign = class.det_a.factor();
-        along(&self.robot, class.mode, sign, pose, &node[..pose.len()], EFFORT) == Along::Inside
+        let demand = Demand::class(class.mode, class.det_a.factor());
+        Along::is_inside(&self.robot, &demand, [pose, &node[..pose.len()]], EFFORT)
     }
 
     /// The aspect with this [`crate::aspect::Aspect::id`] as a function.

@@ -34,7 +34,7 @@ fn legs_at<const D: usize, const N: usize>(robot: &Robot, pose: &[f64]) -> Vec<L
         let mut solutions = LegSolutions {
             q: [None; 2],
             within_limits: [false; 2],
-            reach: leg.actuator.greatest_reach().map_or(1.0, |most| closure.reach / most),
+            reach: leg.actuator.greatest_reach().map_or(1.0, |most| closure.reach / most.mid()),
             certified: proof.reach.is_positive(),
         };
         // At the very limit of reach rounding may make H negative: intervals decide.
@@ -45,7 +45,7 @@ fn legs_at<const D: usize, const N: usize>(robot: &Robot, pose: &[f64]) -> Vec<L
             if leg.actuator.postures() == 1 && s > 0.0 {
                 continue;
             }
-            let sh = s * closure.reach.sqrt();
+            let sh = s * closure.reach.max(0.0).sqrt();
             solutions.q[k] = Some(drive(&leg.actuator, &span, &closure, sh).value());
             solutions.within_limits[k] =
                 leg.limits.iter().all(|limit| margin(limit, &at, sh, &placement) > 0.0);

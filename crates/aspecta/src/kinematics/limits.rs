@@ -100,7 +100,7 @@ fn rod_direction<T: Scalar, const D: usize>(at: &LegAt<'_, T, D>, sh: T) -> [T; 
 }
 
 /// ‖weight · ∂f/∂d‖ = 2 M weight (2 q for a strut).
-fn rod_length<T: Scalar, const D: usize>(at: &LegAt<'_, T, D>) -> T {
+pub(super) fn rod_length<T: Scalar, const D: usize>(at: &LegAt<'_, T, D>) -> T {
     match at.leg.actuator {
         Actuator::Revolute { rod, .. } | Actuator::Prismatic { rod } => at.closure.weight.scale(rod + rod),
         _ => {

@@ -1,6 +1,7 @@
 //! Inverse and direct geometric models, Jacobians and singularities (section 2 of the paper).
 
 pub mod chart;
+pub mod demand;
 pub mod direct;
 mod inverse;
 mod jacobian;
@@ -9,8 +10,8 @@ pub mod limits;
 pub mod modal;
 mod out_of_reach;
 pub mod parallel_rods;
+pub mod path;
 pub mod placement;
-pub mod segment;
 mod singularity;
 mod working_mode;
 

@@ -7,7 +7,7 @@
 use super::WorkingMode;
 use super::chart::Folded;
 use super::leg::{Closure, Drive, drive, eliminate};
-use super::limits::{LegAt, margin};
+use super::limits::LegAt;
 use super::placement::{Placement, determinant, minor, out_of_frame, wrench};
 use crate::num::{Scalar, each};
 use crate::robot::{Leg, Robot};
@@ -138,34 +138,6 @@ impl<T: Scalar, const N: usize> ModalRows<T, N> {
         }
         determinant(&rows)
     }
-}
-
-/// Visits the functions whose common positivity region is S_{s,σ} — H_j, c_k and det A (times the weights) —
-/// at one pose, in `mode`. `visit` returns whether to go on.
-pub fn constraints<T: Scalar, const D: usize, const N: usize>(
-    robot: &Robot,
-    placement: &Placement<T, D>,
-    mode: WorkingMode,
-    mut visit: impl FnMut(Constraint, T) -> bool,
-) {
-    let legs = closures::<T, D, N>(robot, placement);
-    for (j, at) in legs.iter().enumerate() {
-        if robot.legs[j].actuator.postures() == 2 && !visit(Constraint::Reach(j), at.closure.reach) {
-            return;
-        }
-    }
-    let heights: [T; N] = each!(|j| legs[j].closure.reach.sqrt());
-    for (j, at) in legs.iter().enumerate() {
-        let leg = &robot.legs[j];
-        let sh = if mode.sign(j) > 0 { heights[j] } else { -heights[j] };
-        let at = at.limited(leg);
-        for (k, limit) in leg.limits.iter().enumerate() {
-            if !visit(Constraint::Limit(j, k), margin(limit, &at, sh, placement)) {
-                return;
-            }
-        }
-    }
-    visit(Constraint::Det, ModalRows::<T, N>::new(robot, &legs, &heights).det(mode));
 }
 
 /// One of the functions that bound an aspect.

@@ -129,7 +129,7 @@ impl Robot {
 
     /// A with every row scaled to a unit force (a unit moment, if the platform only turns) and
     /// moments divided by the characteristic length. A row of zeros stays.
-    fn homogeneous(&self, a: &[Vec<f64>]) -> DMatrix<f64> {
+    pub(super) fn homogeneous(&self, a: &[Vec<f64>]) -> DMatrix<f64> {
         let n = self.dof();
         let mut all = DMatrix::zeros(n, n);
         for (j, row) in a.iter().enumerate() {
@@ -155,8 +155,10 @@ impl Robot {
     fn serial_measures(&self, b: &[f64]) -> Vec<f64> {
         let measure = |(actuator, b): (&Actuator, &f64)| match actuator.greatest_reach() {
             // |B| = h, or 2h for a slider, whose leg equation is quadratic in q.
-            Some(reach) if matches!(actuator, Actuator::Prismatic { .. }) => b.abs() / (2.0 * reach.sqrt()),
-            Some(reach) => b.abs() / reach.sqrt(),
+            Some(reach) if matches!(actuator, Actuator::Prismatic { .. }) => {
+                b.abs() / (2.0 * reach.mid().sqrt())
+            }
+            Some(reach) => b.abs() / reach.mid().sqrt(),
             None => f64::from(*b != 0.0),
         };
         self.legs.iter().map(|l| &l.actuator).zip(b).map(measure).collect()

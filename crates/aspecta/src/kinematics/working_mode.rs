@@ -36,6 +36,11 @@ impl WorkingMode {
         Self::from_signs(self.signs().map(|sign| sign < 0))
     }
 
+    /// Leg `j` (from 0) in its other posture.
+    pub fn with_other_posture(self, j: usize) -> Self {
+        Self { negative: self.negative ^ 1 << j, ..self }
+    }
+
     /// Number of legs.
     pub fn legs(self) -> usize {
         self.legs.into()

@@ -1,7 +1,8 @@
 //! Is a path free of singularities? Proved by intervals along every segment, not at samples.
 
+use crate::kinematics::demand::Demand;
 use crate::kinematics::modal::Constraint;
-use crate::kinematics::segment::{Along, along};
+use crate::kinematics::path::{Along, Curve, along};
 use crate::kinematics::{KinematicsError, WorkingMode};
 use crate::robot::Robot;
 use serde::Serialize;
@@ -166,7 +167,7 @@ fn check_input(robot: &Robot, poses: &[Vec<f64>], mode: WorkingMode) -> Result<(
 
 /// The proved sign of det A at a pose inside the mode.
 fn sign_at(robot: &Robot, mode: WorkingMode, pose: &[f64]) -> Option<i8> {
-    [1, -1].into_iter().find(|&sign| along(robot, mode, sign, pose, pose, 1) == Along::Inside)
+    [1, -1].into_iter().find(|&sign| Along::is_inside(robot, &Demand::class(mode, sign), [pose, pose], 1))
 }
 
 /// The first obstacle, and whether the path is proved sound.
@@ -177,11 +178,12 @@ fn first_obstacle(
     sign: i8,
 ) -> (Option<Obstacle>, Option<bool>) {
     for (k, ends) in poses.windows(2).enumerate() {
-        let (constraint, from, to, proved) = match along(robot, mode, sign, &ends[0], &ends[1], EFFORT) {
-            Along::Inside => continue,
-            Along::Outside { constraint, from, to } => (constraint, from, to, true),
-            Along::Undecided { constraint, from, to } => (constraint, from, to, false),
-        };
+        let (constraint, from, to, proved) =
+            match along(robot, &Demand::class(mode, sign), &Curve::segment(&ends[0], &ends[1]), EFFORT) {
+                Along::Inside | Along::Crossed { .. } => continue,
+                Along::Outside { constraint, from, to } => (constraint, from, to, true),
+                Along::Undecided { constraint, from, to } => (constraint, from, to, false),
+            };
         let pose = at(&ends[0], &ends[1], 0.5 * (from + to));
         let obstacle = Obstacle { segment: k + 1, t: (from, to), pose, constraint, proved };
         return (Some(obstacle), proved.then_some(false));

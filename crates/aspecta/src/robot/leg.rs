@@ -1,6 +1,6 @@
 //! Legs, their actuators and their joint limits.
 
-use crate::num::Interval;
+use crate::num::{Interval, Scalar};
 use serde::{Deserialize, Serialize};
 
 /// An orthonormal frame at the anchor of a leg: its rows are the unit vectors u, v, w in base
@@ -79,15 +79,16 @@ impl Actuator {
         matches!(self, Self::Revolute { .. } | Self::Spherical { .. })
     }
 
-    /// The greatest H can be, approximately: (2LM)², M² or (sin sin)²; `None` for struts, whose H has no
-    /// zero to keep away from. Makes reaches comparable; used in no proof.
-    pub fn greatest_reach(&self) -> Option<f64> {
+    /// The greatest H can be: (2LM)², M² or (sin sin)²; `None` for struts, whose H has no
+    /// zero to keep away from. Makes reaches comparable.
+    pub fn greatest_reach(&self) -> Option<Interval> {
+        let one = Interval::point(1.0);
         match self {
-            Self::Revolute { crank, rod } => Some((2.0 * crank.mid() * rod.mid()).powi(2)),
-            Self::Prismatic { rod } => Some(rod.mid().powi(2)),
+            Self::Revolute { crank, rod } => Some(((*crank + *crank) * *rod).square()),
+            Self::Prismatic { rod } => Some(rod.square()),
             Self::Strut => None,
             Self::Spherical { proximal, distal_cos } => {
-                Some(proximal.1.mid().powi(2) * (1.0 - distal_cos.mid().powi(2)))
+                Some(proximal.1.square() * (one - distal_cos.square()))
             }
         }
     }

@@ -255,7 +255,7 @@ impl<'a, const D: usize> Tracker<'a, D> {
             _ => false,
         };
         let serial = |(j, actuator): (usize, Actuator)| {
-            actuator.greatest_reach().is_some_and(|most| values.closing[j] < SMALL * most)
+            actuator.greatest_reach().is_some_and(|most| values.closing[j] < SMALL * most.mid())
         };
         match (legs().any(free), legs().any(serial)) {
             (true, _) => CurveEnd::FreeJoint,

@@ -186,7 +186,10 @@ fn refusal<const D: usize, const N: usize>(
     let reach = |t: f64| {
         closures::<f64, D, N>(robot, &Placement::at(robot.platform, &segment.at(t)))[leg].closure.reach
     };
-    let most = robot.legs[leg].actuator.greatest_reach().unwrap_or(robot.characteristic_length().powi(2));
+    let most = robot.legs[leg]
+        .actuator
+        .greatest_reach()
+        .map_or_else(|| robot.characteristic_length().powi(2), Interval::mid);
     let here = reach(proved);
     let distance = (here.max(0.0) / most).sqrt();
     let rate = (reach(proved + APART) - here) / APART;
