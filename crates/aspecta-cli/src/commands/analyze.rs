@@ -52,7 +52,8 @@ impl Analyze {
             file::writable(directory).map_err(Failure::in_directory(directory))?;
         }
         let proof = self.certificate.as_deref().map(|path| Target::new("--certificate", path)).transpose()?;
-        let options = Options { budget: self.budget.unwrap_or_default(), fix, certificate: proof.is_some() };
+        let budget = self.budget.unwrap_or_default();
+        let options = Options { budget, fix, certificate: proof.is_some(), ..Options::default() };
         let analysis = watch::watched(self.threads, |control| analyze(&robot, &options, control))??;
         self.print(out, &analysis)?;
         if let (Some(target), Some(certificate)) = (&proof, &analysis.certificate) {

@@ -30,6 +30,9 @@ pub struct Options {
     pub budget: Budget,
     /// Coordinates to hold (index, value), as in [`Robot::slice`]: what is analysed are the poses that have these values.
     pub fix: Vec<(usize, f64)>,
+    /// The working modes to analyse, in this order; empty: all of the robot. With some only, the classes, bounds and numbers are
+    /// those of these modes, and Definitions 5 and 6 are left out.
+    pub modes: Vec<WorkingMode>,
     /// Whether to keep the proof: [`Analysis::certificate`].
     pub certificate: bool,
 }
@@ -40,6 +43,14 @@ pub enum AnalysisError {
     /// The workspace, or the slice of it, has no window.
     #[error(transparent)]
     Slice(#[from] SliceError),
+    /// No working mode of the robot.
+    #[error("`{mode}` is not a working mode of robot `{robot}`")]
+    Mode {
+        /// Robot name.
+        robot: String,
+        /// The mode asked for.
+        mode: WorkingMode,
+    },
     /// Too many degrees of freedom to be paved whole.
     #[error("robot `{robot}` has {dof} degrees of freedom: aspects are computed for 2 and 3")]
     Dimension {
@@ -69,16 +80,20 @@ pub enum AnalysisError {
 /// lies in one aspect of the robot; several may lie in the same.
 ///
 /// # Errors
-/// [`AnalysisError`] if the workspace is unbounded or empty, its dimension is not 2 or 3, or there is no such slice.
+/// [`AnalysisError`] if the workspace is unbounded or empty, its dimension is not 2 or 3, there is no such slice, or no such mode.
 pub fn analyze(robot: &Robot, options: &Options, control: &Control<'_>) -> Result<Analysis, AnalysisError> {
     let start = Instant::now();
     if robot.dof() > 3 {
         return Err(AnalysisError::Dimension { robot: robot.name.clone(), dof: robot.dof() });
     }
     let window = robot.slice(&options.fix)?;
-    let modes = robot.working_modes();
+    let all_modes = robot.working_modes();
+    if let Some(&mode) = options.modes.iter().find(|mode| !all_modes.contains(mode)) {
+        return Err(AnalysisError::Mode { robot: robot.name.clone(), mode });
+    }
+    let modes = if options.modes.is_empty() { &all_modes } else { &options.modes };
     let parallel_rods = parallel_rods(robot);
-    let search = Search::run(robot, &window, &modes, &bounded(options.budget, &parallel_rods), control);
+    let search = Search::run(robot, &window, modes, &bounded(options.budget, &parallel_rods), control);
     let Search { atlas, counted, stop } = search;
     let paving = &atlas.sheets[0];
     let found: Vec<Found> =
@@ -88,8 +103,11 @@ pub fn analyze(robot: &Robot, options: &Options, control: &Control<'_>) -> Resul
     let low = classes.iter().map(|c| c.low).sum();
     let high = classes.iter().map(|c| c.high).sum::<Option<usize>>();
     (control.progress)(Progress { stage: "definitions 5 and 6", done: 0, total: 1 });
-    let (parallel, serial) =
-        rayon::join(|| parallel_aspects(robot, paving), || serial_aspects(robot, paving));
+    let (parallel, serial) = if options.modes.is_empty() {
+        rayon::join(|| parallel_aspects(robot, paving), || serial_aspects(robot, paving))
+    } else {
+        Default::default()
+    };
     Ok(Analysis {
         format_version: FORMAT_VERSION,
         fixed: Held::all(robot, &window),
@@ -243,7 +261,8 @@ fn mode_report(robot: &Robot, paving: &Paving, m: usize, mode: WorkingMode) -> M
         (None, true) => Reachable::Undecided,
         (None, false) => Reachable::No,
     };
-    ModeReport { number: m + 1, mode, reachable, sample }
+    let number = 1 + robot.working_modes().iter().position(|&other| other == mode).unwrap_or(m);
+    ModeReport { number, mode, reachable, sample }
 }
 
 impl Robot {

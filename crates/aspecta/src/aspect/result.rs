@@ -110,26 +110,26 @@ impl Analysis {
         match self.locate(class, pose) {
             Place::Inside(id) => Some(id),
             Place::Outside => None,
-            Place::Undecided => for_platform!(self.robot.platform, aspect_uphill(self, class, pose)),
+            Place::Undecided => {
+                let mut found = None;
+                self.climb(class, pose, &mut |pose| {
+                    if let Place::Inside(id) = self.locate(class, pose) {
+                        found = Some(id);
+                    }
+                    found.is_some()
+                });
+                found
+            }
         }
     }
-}
 
-fn aspect_uphill<const D: usize, const N: usize>(
-    analysis: &Analysis,
-    class: usize,
-    pose: &[f64],
-) -> Option<usize> {
-    let AspectClass { mode, det_a, .. } = analysis.classes[class];
-    let seen = Class { mode, sign: det_a.factor(), bit: 1 << class };
-    let mut found = None;
-    ascend::<D, N>(&analysis.robot, &analysis.paving, seen, pose, &mut |pose| {
-        if let Place::Inside(id) = analysis.locate(class, pose) {
-            found = Some(id);
-        }
-        found.is_some()
-    });
-    found
+    /// Climbs from a pose of class `class` away from the boundary of its aspect, until `reached` says so of a pose or no step can be
+    /// proved any more. The straight segments between the poses visited are proved to stay in the class.
+    pub(crate) fn climb(&self, class: usize, pose: &[f64], reached: &mut impl FnMut(&[f64]) -> bool) {
+        let AspectClass { mode, det_a, .. } = self.classes[class];
+        let seen = Class { mode, sign: det_a.factor(), bit: 1 << class };
+        for_platform!(self.robot.platform, ascend(&self.robot, &self.paving, seen, pose, reached));
+    }
 }
 
 /// Proved bounds on a number of aspects.

@@ -1,6 +1,7 @@
-//! Motion: paths checked against singularities, between their samples too; solutions followed in a control loop.
+//! Motion: paths checked against singularities, between their samples too; paths planned; solutions followed in a control loop.
 
 mod check;
 pub mod follow;
+pub mod plan;
 
 pub use check::{Extreme, Obstacle, PathCheck, PathError, ProfilePoint, check_path};

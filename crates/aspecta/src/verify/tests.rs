@@ -12,7 +12,7 @@ use std::sync::atomic::AtomicBool;
 
 /// What an analysis proves of a robot, or of the slice `fix`: its leaves, joins and seams. Nothing is claimed.
 fn certified(robot: &Robot, fix: &[(usize, f64)], budget: &Budget) -> Certificate {
-    let options = Options { budget: *budget, fix: fix.to_vec(), certificate: true };
+    let options = Options { budget: *budget, fix: fix.to_vec(), certificate: true, ..Options::default() };
     let control = Control { cancelled: &AtomicBool::new(false), progress: &|_| {} };
     let mut certificate = analyze(robot, &options, &control).unwrap().certificate.unwrap();
     certificate.claims.fill(Claim { low: 0, high: None });

@@ -1,0 +1,104 @@
+//! What a path costs: its length, the dearer the nearer it comes to a singularity. Numerical: it decides which of the sound paths is
+//! taken, never whether a path is sound.
+
+use super::Pose;
+use crate::kinematics::demand::{Demand, Margins, measures};
+use crate::kinematics::for_platform;
+use crate::kinematics::placement::Placement;
+use crate::robot::{Robot, Window};
+use std::f64::consts::TAU;
+
+/// Samples of a segment's cost, at least.
+const FEWEST: f64 = 4.0;
+/// And at most.
+const MOST: f64 = 48.0;
+
+/// The cost of paths in one class of aspects.
+pub(super) struct Cost<'a> {
+    robot: &'a Robot,
+    demand: &'a Demand,
+    /// What a unit of each coordinate is worth: 1 for lengths, the characteristic length for angles.
+    scale: Pose,
+    glued: [bool; 3],
+    /// How much nearness to singularities counts.
+    weight: f64,
+    /// The diagonal of the window.
+    pub size: f64,
+}
+
+impl<'a> Cost<'a> {
+    pub fn new(robot: &'a Robot, window: &Window, demand: &'a Demand, weight: f64) -> Self {
+        let coordinates = robot.platform.coordinates();
+        let turning = coordinates.iter().all(|c| c.angle);
+        let mut scale = [0.0; 3];
+        for (scale, c) in scale.iter_mut().zip(coordinates) {
+            *scale = if c.angle && !turning { robot.characteristic_length() } else { 1.0 };
+        }
+        let glued = std::array::from_fn(|k| window.glued.get(k) == Some(&true));
+        let mut cost = Self { robot, demand, scale, glued, weight, size: 0.0 };
+        let corner = |upper: bool| -> Pose {
+            let mut corner = [0.0; 3];
+            corner.iter_mut().zip(&window.ranges).for_each(|(x, r)| *x = if upper { r.1 } else { r.0 });
+            corner
+        };
+        cost.size = cost.distance(&corner(false), &corner(true));
+        cost
+    }
+
+    /// Length of the straight segment: translations and angles times the characteristic length.
+    pub fn distance(&self, a: &Pose, b: &Pose) -> f64 {
+        (0..3).map(|k| ((b[k] - a[k]) * self.scale[k]).powi(2)).sum::<f64>().sqrt()
+    }
+
+    /// The pose `b`, turned by full turns to be next to `a`.
+    pub fn beside(&self, a: &Pose, b: &Pose) -> Pose {
+        // Where no turn is needed the pose stays what it is, to the last bit.
+        let turns = |k: usize| if self.glued[k] { ((a[k] - b[k]) / TAU).round() } else { 0.0 };
+        std::array::from_fn(|k| b[k] + turns(k) * TAU)
+    }
+
+    /// A step of a given length along coordinate k.
+    pub fn step(&self, length: f64, k: usize) -> f64 {
+        length / self.scale[k]
+    }
+
+    /// |det Â| and the least |B_jj| / max |B_jj|; zeros where the pose is not in the class.
+    pub fn measures(&self, x: &Pose) -> Margins {
+        let pose = &x[..self.robot.dof()];
+        for_platform!(self.robot.platform, measured(self.robot, self.demand, pose))
+    }
+
+    /// Cost of a unit of length at a pose so far from singularities.
+    pub fn density(&self, measures: Margins) -> f64 {
+        if self.weight == 0.0 { 1.0 } else { measures.parallel.min(measures.serial).powf(-self.weight) }
+    }
+
+    /// Cost of a straight segment.
+    pub fn of(&self, a: &Pose, b: &Pose) -> f64 {
+        let length = self.distance(a, b);
+        if self.weight == 0.0 {
+            return length;
+        }
+        let count = (64.0 * length / self.size).clamp(FEWEST, MOST).ceil() as usize;
+        let at = |i: usize| -> Pose {
+            let t = (i as f64 + 0.5) / count as f64;
+            std::array::from_fn(|k| a[k] + t * (b[k] - a[k]))
+        };
+        let sum: f64 = (0..count).map(|i| self.density(self.measures(&at(i)))).sum();
+        length * sum / count as f64
+    }
+
+    /// Cost of a polyline.
+    pub fn of_all(&self, path: &[Pose]) -> f64 {
+        path.windows(2).map(|ends| self.of(&ends[0], &ends[1])).sum()
+    }
+}
+
+fn measured<const D: usize, const N: usize>(robot: &Robot, demand: &Demand, pose: &[f64]) -> Margins {
+    let placement = Placement::<f64, D>::at(robot.platform, pose);
+    let (parallel, serial) = measures::<f64, D, N>(robot, &placement, demand.mode);
+    // A NaN is no measure.
+    let positive = |x: f64| if x > 0.0 { x } else { 0.0 };
+    let serial = serial.iter().copied().map(positive).fold(1.0, f64::min);
+    Margins { parallel: positive(parallel * f64::from(demand.sign)), serial }
+}

@@ -1,0 +1,294 @@
+//! Planning within a working mode: from one pose to another through one generalized aspect.
+//!
+//! The boxes that the analysis proved to lie in a class are a graph; the cheapest way over it becomes a polyline, whose waypoints are
+//! then left out and moved. What is returned is proved segment by segment ([`crate::kinematics::path::along`]), margins included; how
+//! it was found is no part of the proof.
+//!
+//! That no path exists is proved too, where it is so: det A is continuous along any motion in a working mode, so two signs of it cannot
+//! be joined without a zero; and poses that lie in two aspects of a class ([`Analysis::aspect_at`]) cannot be joined within the class by
+//! Definition 8.
+
+mod cost;
+mod refusal;
+mod roadmap;
+mod shorten;
+
+pub use refusal::{End, Refusal};
+
+use crate::aspect::{Analysis, DetSign};
+use crate::kinematics::WorkingMode;
+use crate::kinematics::demand::{Demand, Margins};
+use crate::kinematics::path::Along;
+use crate::num::padded;
+use crate::robot::Window;
+use cost::Cost;
+use roadmap::Roadmap;
+use serde::Serialize;
+use std::collections::HashSet;
+
+/// Up to three coordinates, of which the first n count.
+type Pose = [f64; 3];
+
+/// What kind of path is wanted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlanOptions {
+    /// How much nearness to singularities counts: a unit of length costs c^−w where the clearance c is the smaller of |det Â| and
+    /// the |B_jj| / max |B_jj|. 0 looks for the shortest path; 8 as good as only at the least clearance.
+    pub weight: f64,
+    /// What the whole path must keep away from singularities, proved.
+    pub margins: Margins,
+}
+
+impl Default for PlanOptions {
+    fn default() -> Self {
+        Self { weight: 1.0, margins: Margins::default() }
+    }
+}
+
+/// A path within one aspect: straight segments in pose coordinates, each proved to stay in it and to keep the margins.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Plan {
+    /// The working mode.
+    pub mode: WorkingMode,
+    /// The sign of det A.
+    pub det_a: DetSign,
+    /// The [`crate::aspect::Aspect::id`], where it is known.
+    pub aspect: Option<usize>,
+    /// The poses it goes through, the ends included. Angles go on past ±π; the last pose may be full turns from the one asked for.
+    pub waypoints: Vec<Vec<f64>>,
+    /// Its length: translations, and angles times the robot's characteristic length. Numerical.
+    pub length: f64,
+    /// The margins proved.
+    pub margins: Margins,
+}
+
+/// Plans paths through the aspects of an analysed robot.
+pub struct Planner<'a> {
+    analysis: &'a Analysis,
+    /// The roadmaps made so far: per class, the coarsest first.
+    roadmaps: Vec<Vec<Roadmap>>,
+}
+
+/// Interval evaluations for a segment that is only tried.
+const TRIAL: usize = 200;
+/// For one that is to be returned.
+const FINAL: usize = 100_000;
+/// How often a way is looked for again because a segment of it does not keep the margins.
+const DETOURS: usize = 200;
+
+/// What proves segments.
+struct Proof<'a> {
+    analysis: &'a Analysis,
+    demand: &'a Demand,
+}
+
+impl Proof<'_> {
+    fn axes(&self) -> usize {
+        self.analysis.robot.dof()
+    }
+
+    fn is_free_of_margins(&self) -> bool {
+        self.demand.margins == Margins::default()
+    }
+
+    /// Whether the segment between two poses meets the demand, within the window.
+    fn holds(&self, a: &Pose, b: &Pose) -> bool {
+        self.holds_within(a, b, TRIAL)
+    }
+
+    fn holds_within(&self, a: &Pose, b: &Pose, effort: usize) -> bool {
+        let n = self.axes();
+        let in_window = |x: &Pose| is_in(&self.analysis.window, &x[..n]);
+        in_window(a)
+            && in_window(b)
+            && Along::is_inside(&self.analysis.robot, self.demand, [&a[..n], &b[..n]], effort)
+    }
+}
+
+/// Whether a pose lies in the window. The window is convex, but for coordinates that are glued, along which it has no ends.
+fn is_in(window: &Window, pose: &[f64]) -> bool {
+    pose.iter().enumerate().all(|(k, &x)| window.fraction(k, x).is_some())
+}
+
+impl<'a> Planner<'a> {
+    /// A planner over a whole robot of two or three degrees of freedom (no slice of it).
+    pub fn new(analysis: &'a Analysis) -> Self {
+        Self { analysis, roadmaps: analysis.classes.iter().map(|_| Vec::new()).collect() }
+    }
+
+    /// What it plans over.
+    pub fn analysis(&self) -> &'a Analysis {
+        self.analysis
+    }
+
+    /// A path from `start` to `goal` (angles modulo 2π) in `mode`.
+    ///
+    /// # Errors
+    /// [`Refusal`]: what is wrong with the poses, why no path exists, or what could not be decided.
+    pub fn plan(
+        &mut self,
+        mode: WorkingMode,
+        start: &[f64],
+        goal: &[f64],
+        options: &PlanOptions,
+    ) -> Result<Plan, Refusal> {
+        let analysis = self.analysis;
+        let det_a = refusal::common_sign(analysis, mode, [start, goal], options.margins)?;
+        let (class, aspect) = refusal::common_aspect(analysis, mode, det_a, [start, goal])?;
+        let demand = Demand { margins: options.margins, ..Demand::class(mode, det_a.factor()) };
+        let cost = Cost::new(&analysis.robot, &analysis.window, &demand, options.weight);
+        let proof = Proof { analysis, demand: &demand };
+        let ends = [start, goal].map(|pose| -> Pose { padded(&in_window(&analysis.window, pose)) });
+        let path = self.sound_path(class, &cost, &proof, ends)?;
+        let path = shorten::improve(&proof, &cost, path, options.weight > 0.0);
+        if let Some(k) = path.windows(2).position(|ends| !proof.holds_within(&ends[0], &ends[1], FINAL)) {
+            return Err(Refusal::Unproved { pose: path[k][..analysis.robot.dof()].to_vec() });
+        }
+        Ok(Plan {
+            mode,
+            det_a,
+            aspect,
+            length: path.windows(2).map(|ends| cost.distance(&ends[0], &ends[1])).sum(),
+            waypoints: path.iter().map(|x| x[..analysis.robot.dof()].to_vec()).collect(),
+            margins: options.margins,
+        })
+    }
+
+    /// Some path, proved.
+    fn sound_path(
+        &mut self,
+        class: usize,
+        cost: &Cost<'_>,
+        proof: &Proof<'_>,
+        ends: [Pose; 2],
+    ) -> Result<Vec<Pose>, Refusal> {
+        let straight = [ends[0], cost.beside(&ends[0], &ends[1])];
+        if cost.of_all(&straight) <= cost.distance(&straight[0], &straight[1]) * (1.0 + 1e-12)
+            && proof.holds(&straight[0], &straight[1])
+        {
+            return Ok(straight.to_vec());
+        }
+        let analysis = self.analysis;
+        let deepest = analysis.paving.depth;
+        for depth in coarsest(analysis.robot.dof()).min(deepest)..=deepest {
+            let roadmap = self.roadmap(class, depth, cost);
+            if let Some(path) = roadmap.path(proof, cost, ends) {
+                return Ok(path);
+            }
+        }
+        // Climbs join what boxes alone do not.
+        let roadmap = self.roadmap(class, deepest, cost);
+        if roadmap.build_bridges(analysis)
+            && let Some(path) = roadmap.path(proof, cost, ends)
+        {
+            return Ok(path);
+        }
+        if proof.holds(&straight[0], &straight[1]) {
+            return Ok(straight.to_vec());
+        }
+        Err(Refusal::NotFound { depth: deepest, margins: proof.demand.margins })
+    }
+
+    fn roadmap(&mut self, class: usize, depth: u32, cost: &Cost<'_>) -> &mut Roadmap {
+        let made = &mut self.roadmaps[class];
+        match made.iter().position(|roadmap| roadmap.depth == depth) {
+            Some(k) => &mut made[k],
+            None => {
+                made.push(Roadmap::new(self.analysis, class, depth, cost));
+                let last = made.len() - 1;
+                &mut made[last]
+            }
+        }
+    }
+}
+
+/// The depth of the first roadmap that is tried.
+fn coarsest(dof: usize) -> u32 {
+    if dof == 2 { 8 } else { 5 }
+}
+
+/// The pose with its angles turned into the window.
+fn in_window(window: &Window, pose: &[f64]) -> Vec<f64> {
+    pose.iter().enumerate().map(|(k, &x)| window.turned_in(k, x)).collect()
+}
+
+impl Roadmap {
+    /// A proved path over its boxes: from the start up to a box, from box to box, down to the goal.
+    fn path(&self, proof: &Proof<'_>, cost: &Cost<'_>, ends: [Pose; 2]) -> Option<Vec<Pose>> {
+        let [up, down] = ends.map(|end| self.access(proof, &end));
+        let same = |a: &Access| down.iter().find(|b| self.spot(a.spot).piece == self.spot(b.spot).piece);
+        let (a, b) = up.iter().find_map(|a| Some((a, same(a)?)))?;
+        let margins = proof.demand.margins;
+        let mut blocked = HashSet::new();
+        for _ in 0..DETOURS {
+            let way = self.way(cost, margins, &blocked, [a.spot, b.spot])?;
+            let mut path = a.path.clone();
+            let bad = way.windows(2).position(|pair| !self.go_on(proof, cost, &mut path, [pair[0], pair[1]]));
+            match bad {
+                Some(k) => blocked.extend([(way[k], way[k + 1]), (way[k + 1], way[k])]),
+                None => {
+                    for x in b.path.iter().rev() {
+                        path.push(cost.beside(&path[path.len() - 1], x));
+                    }
+                    return Some(path);
+                }
+            }
+        }
+        None
+    }
+
+    /// Appends the way from a spot to its neighbour. With margins: if they are kept.
+    fn go_on(&self, proof: &Proof<'_>, cost: &Cost<'_>, path: &mut Vec<Pose>, [from, to]: [u32; 2]) -> bool {
+        let (here, there) = (self.spot(from), self.spot(to));
+        let last = path[path.len() - 1];
+        if let Some(bridge) = self.bridge(from, to) {
+            let begin = path.len() - 1;
+            for x in bridge {
+                path.push(cost.beside(&path[path.len() - 1], &x));
+            }
+            return proof.is_free_of_margins()
+                || path[begin..].windows(2).all(|ends| proof.holds(&ends[0], &ends[1]));
+        }
+        let (centre, next) = {
+            let centre = cost.beside(&last, &here.centre);
+            (centre, cost.beside(&centre, &there.centre))
+        };
+        let door = here.meeting(there, &centre, &next);
+        path.extend([centre, door, next]);
+        // Both halves lie in boxes that are proved to lie in the class; nothing is known of the margins yet.
+        proof.demand.margins == Margins::default()
+            || (proof.holds(&centre, &door) && proof.holds(&door, &next))
+    }
+
+    /// Ways from a pose to boxes, by proved segments: the box it lies in, and those that a climb comes to.
+    fn access(&self, proof: &Proof<'_>, end: &Pose) -> Vec<Access> {
+        let n = proof.axes();
+        let mut found: Vec<Access> = Vec::new();
+        let mut path = vec![*end];
+        let mut add = |path: &[Pose], pose: &[f64]| {
+            if let Some(spot) = self.holding(proof.analysis, pose)
+                && found.iter().all(|access| self.spot(access.spot).piece != self.spot(spot).piece)
+            {
+                found.push(Access { path: path.to_vec(), spot });
+            }
+        };
+        add(&path, &end[..n]);
+        proof.analysis.climb(self.class, &end[..n], &mut |pose| {
+            let next = padded(pose);
+            // The climb itself is proved to stay in the class, whatever its margins.
+            if !proof.is_free_of_margins() && !proof.holds(&path[path.len() - 1], &next) {
+                return true;
+            }
+            path.push(next);
+            add(&path, pose);
+            false
+        });
+        found
+    }
+}
+
+/// A way from a pose to a box: the poses up to one that lies in it.
+struct Access {
+    path: Vec<Pose>,
+    spot: u32,
+}

@@ -1,0 +1,194 @@
+//! Why there is no plan.
+
+use crate::aspect::{Analysis, DetSign};
+use crate::kinematics::demand::{Demand, Margins};
+use crate::kinematics::modal::Constraint;
+use crate::kinematics::path::{Along, Curve, along};
+use crate::kinematics::{KinematicsError, WorkingMode};
+use serde::Serialize;
+use std::fmt;
+
+/// Which end of a path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum End {
+    /// Where it begins.
+    Start,
+    /// Where it ends.
+    Goal,
+}
+
+impl fmt::Display for End {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(if *self == Self::Start { "start" } else { "goal" })
+    }
+}
+
+/// Why there is no plan. [`Refusal::is_proof`] tells which of these prove that none exists.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Refusal {
+    /// No pose of this robot.
+    #[error("the {end}: {error}")]
+    Pose {
+        /// Which.
+        end: End,
+        /// What is wrong.
+        error: KinematicsError,
+    },
+    /// No working mode that was analysed.
+    #[error("working mode {0} was not analysed, or the robot has no such mode")]
+    Mode(WorkingMode),
+    /// Outside the window that the robot file sets.
+    #[error("the {0} lies outside the [window] of the robot file")]
+    Window(End),
+    /// A leg does not reach it (proved).
+    #[error("leg {leg} does not reach the {end}: proved")]
+    OutOfReach {
+        /// Which end.
+        end: End,
+        /// The leg, from 1.
+        leg: usize,
+    },
+    /// A joint limit forbids it (proved).
+    #[error("the {end} is beyond limit {limit} of leg {leg}: proved")]
+    BeyondLimit {
+        /// Which end.
+        end: End,
+        /// The leg, from 1.
+        leg: usize,
+        /// Its limit, from 1.
+        limit: usize,
+    },
+    /// On the boundary of an aspect, or too near to it to tell.
+    #[error("the {0} is singular or on a joint limit, or too near to tell which side it is on")]
+    OnBoundary(End),
+    /// An end does not keep the margins (proved, or not excluded).
+    #[error("the {0} itself is nearer to a singularity than the margins allow")]
+    Margins(End),
+    /// det A has two signs (proved): see [`super`].
+    #[error(
+        "no such path exists, proved: det A is {} at the start and {} at the goal, so every path between them in this working mode meets \
+         a parallel singularity", word(*.0), word(.0.opposite())
+    )]
+    OppositeSigns(DetSign),
+    /// The two poses lie in two aspects of one class (certified).
+    #[error(
+        "no such path exists, proved: the start lies in aspect {start} and the goal in aspect {goal}, which are apart although mode and sign of \
+         det A are the same"
+    )]
+    DifferentAspects {
+        /// The [`crate::aspect::Aspect::id`] of the start.
+        start: usize,
+        /// That of the goal.
+        goal: usize,
+    },
+    /// Neither a path nor a proof that there is none.
+    #[error(
+        "undecided: no path was found over boxes down to depth {depth}{}, and none is excluded; a finer --budget may tell",
+        if *.margins == Margins::default() { "" } else { " with these margins" }
+    )]
+    NotFound {
+        /// The finest boxes looked at.
+        depth: u32,
+        /// The margins asked for.
+        margins: Margins,
+    },
+    /// A path was found, but one of its segments could not be proved.
+    #[error("undecided: a path was found, but not proved from {pose:?} on")]
+    Unproved {
+        /// Where the segment begins.
+        pose: Vec<f64>,
+    },
+}
+
+fn word(sign: DetSign) -> &'static str {
+    if sign == DetSign::Positive { "positive" } else { "negative" }
+}
+
+impl Refusal {
+    /// Whether it proves that no such path exists.
+    pub fn is_proof(&self) -> bool {
+        matches!(
+            self,
+            Self::OppositeSigns(_)
+                | Self::DifferentAspects { .. }
+                | Self::OutOfReach { .. }
+                | Self::BeyondLimit { .. }
+                | Self::Window(_)
+        )
+    }
+
+    /// Whether what was asked for is no question about this robot.
+    pub fn is_bad_input(&self) -> bool {
+        matches!(self, Self::Pose { .. } | Self::Mode(_))
+    }
+}
+
+/// The sign of det A at both ends, proved, as is that the ends keep the margins.
+pub(super) fn common_sign(
+    analysis: &Analysis,
+    mode: WorkingMode,
+    ends: [&[f64]; 2],
+    margins: Margins,
+) -> Result<DetSign, Refusal> {
+    let [start, goal] = [(End::Start, ends[0]), (End::Goal, ends[1])];
+    let signs = [sign_at(analysis, mode, start)?, sign_at(analysis, mode, goal)?];
+    if signs[0] != signs[1] {
+        return Err(Refusal::OppositeSigns(signs[0]));
+    }
+    let demand = Demand { margins, ..Demand::class(mode, signs[0].factor()) };
+    let keeps = |pose: &[f64]| Along::is_inside(&analysis.robot, &demand, [pose, pose], 1);
+    match [start, goal].into_iter().find(|(_, pose)| !keeps(pose)) {
+        Some((end, _)) => Err(Refusal::Margins(end)),
+        None => Ok(signs[0]),
+    }
+}
+
+/// The sign of det A at a pose that is proved to lie in a class.
+fn sign_at(analysis: &Analysis, mode: WorkingMode, (end, pose): (End, &[f64])) -> Result<DetSign, Refusal> {
+    let robot = &analysis.robot;
+    robot.check_pose(pose).map_err(|error| Refusal::Pose { end, error })?;
+    if !analysis.classes.iter().any(|class| class.mode == mode) {
+        return Err(Refusal::Mode(mode));
+    }
+    if !super::is_in(&analysis.window, &super::in_window(&analysis.window, pose))
+        && robot.window.iter().any(Option::is_some)
+    {
+        return Err(Refusal::Window(end));
+    }
+    let at =
+        |sign: DetSign| along(robot, &Demand::class(mode, sign.factor()), &Curve::segment(pose, pose), 1);
+    for sign in [DetSign::Positive, DetSign::Negative] {
+        match at(sign) {
+            Along::Inside => return Ok(sign),
+            Along::Outside { constraint: Constraint::Reach(leg), .. } => {
+                return Err(Refusal::OutOfReach { end, leg: leg + 1 });
+            }
+            Along::Outside { constraint: Constraint::Limit(leg, limit), .. } => {
+                return Err(Refusal::BeyondLimit { end, leg: leg + 1, limit: limit + 1 });
+            }
+            _ => {}
+        }
+    }
+    Err(Refusal::OnBoundary(end))
+}
+
+/// The class that both ends lie in, and their aspect: where both are known and differ, there is no path.
+pub(super) fn common_aspect(
+    analysis: &Analysis,
+    mode: WorkingMode,
+    det_a: DetSign,
+    ends: [&[f64]; 2],
+) -> Result<(usize, Option<usize>), Refusal> {
+    let is_it = |class: &crate::aspect::AspectClass| class.mode == mode && class.det_a == det_a;
+    let class = analysis.classes.iter().position(is_it).ok_or(Refusal::Mode(mode))?;
+    let entry = &analysis.classes[class];
+    if let ([only], Some(1)) = (&entry.aspects[..], entry.high) {
+        return Ok((class, Some(only.id)));
+    }
+    let [start, goal] = ends.map(|pose| analysis.aspect_at(class, pose));
+    match (start, goal) {
+        (Some(start), Some(goal)) if start != goal => Err(Refusal::DifferentAspects { start, goal }),
+        _ => Ok((class, start.or(goal))),
+    }
+}

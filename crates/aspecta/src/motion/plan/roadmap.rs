@@ -1,0 +1,256 @@
+//! The boxes of a class as a graph: the coarse boxes first, finer ones where these do not connect.
+
+use super::Pose;
+use super::cost::Cost;
+use crate::aspect::Analysis;
+use crate::kinematics::demand::Margins;
+use crate::num::padded;
+use crate::paving::{Mark, Node};
+use rayon::prelude::*;
+use std::cmp::Ordering;
+use std::collections::{BinaryHeap, HashMap, HashSet};
+
+/// A box that is proved to lie in the class.
+pub(super) struct Spot {
+    pub centre: Pose,
+    /// Half its widths.
+    half: Pose,
+    /// How far from singularities its centre is.
+    measures: Margins,
+    /// Which spots hang together with it.
+    pub piece: u32,
+}
+
+/// The boxes of a class down to a depth, and which touch.
+pub(super) struct Roadmap {
+    pub depth: u32,
+    spots: Vec<Spot>,
+    /// Nodes of the paving, ascending: spot i is node `nodes[i]`.
+    nodes: Vec<u32>,
+    /// The neighbours of spot i: `next[first[i]..first[i + 1]]`.
+    first: Vec<u32>,
+    next: Vec<u32>,
+    pub class: usize,
+    /// Proved paths between pieces, by the spots at their ends.
+    bridges: Option<HashMap<[u32; 2], Vec<Pose>>>,
+}
+
+/// A climb from one piece to another.
+struct Bridge {
+    ends: [u32; 2],
+    path: Vec<Pose>,
+}
+
+impl Roadmap {
+    /// The boxes of class `class` (index into [`Analysis::classes`]) that lie in it, not deeper than `depth`.
+    pub fn new(analysis: &Analysis, class: usize, depth: u32, cost: &Cost<'_>) -> Self {
+        let paving = &analysis.paving;
+        let sight = sight(class, depth);
+        let mut nodes = Vec::new();
+        paving.boxes_of(&sight, &mut |node| nodes.push(node));
+        nodes.sort_unstable();
+        let spot = |&node: &u32| {
+            let (lo, hi) = paving.bounds(node);
+            let centre: Pose = padded(&paving.centre(node));
+            let half = std::array::from_fn(|k| 0.5 * (hi[k] - lo[k]));
+            Spot { centre, half, measures: cost.measures(&centre), piece: u32::MAX }
+        };
+        let spots: Vec<Spot> = nodes.iter().map(spot).collect();
+        let mut pairs = Vec::new();
+        let place = |node: u32| nodes.binary_search(&node).unwrap_or(0) as u32;
+        paving.touching(&sight, &mut |a, b| {
+            let (a, b) = (place(a), place(b));
+            pairs.extend([(a, b), (b, a)]);
+        });
+        let mut roadmap =
+            Self { depth, spots, nodes, first: Vec::new(), next: Vec::new(), class, bridges: None };
+        roadmap.join(pairs);
+        roadmap
+    }
+
+    /// Takes the pairs for the edges.
+    fn join(&mut self, mut pairs: Vec<(u32, u32)>) {
+        pairs.sort_unstable();
+        pairs.dedup();
+        let count = self.spots.len() as u32;
+        self.first = (0..=count).map(|i| pairs.partition_point(|pair| pair.0 < i) as u32).collect();
+        self.next = pairs.into_iter().map(|pair| pair.1).collect();
+        self.spots.iter_mut().for_each(|spot| spot.piece = u32::MAX);
+        self.name_pieces();
+    }
+
+    /// Joins pieces by climbs: from the largest box of each, until another piece is met. False if that was done before.
+    pub fn build_bridges(&mut self, analysis: &Analysis) -> bool {
+        if self.bridges.is_some() {
+            return false;
+        }
+        let mut largest: HashMap<u32, u32> = HashMap::new();
+        for i in 0..self.spots.len() as u32 {
+            let best = largest.entry(self.spot(i).piece).or_insert(i);
+            if self.spot(i).half > self.spot(*best).half {
+                *best = i;
+            }
+        }
+        let starts: Vec<u32> = largest.into_values().collect();
+        let bridges: Vec<Bridge> =
+            starts.par_iter().filter_map(|&from| self.bridge_from(analysis, from)).collect();
+        let mut pairs: Vec<(u32, u32)> = Vec::new();
+        for from in 0..self.spots.len() as u32 {
+            pairs.extend(self.around(from).iter().map(|&to| (from, to)));
+        }
+        pairs.extend(bridges.iter().flat_map(|b| [(b.ends[0], b.ends[1]), (b.ends[1], b.ends[0])]));
+        self.bridges = Some(bridges.into_iter().map(|bridge| (bridge.ends, bridge.path)).collect());
+        self.join(pairs);
+        true
+    }
+
+    /// The climb from a spot to the first other piece it meets.
+    fn bridge_from(&self, analysis: &Analysis, from: u32) -> Option<Bridge> {
+        let start = self.spot(from).centre;
+        let (mut path, mut met) = (vec![start], None);
+        analysis.climb(self.class, &start[..analysis.robot.dof()], &mut |pose| {
+            path.push(padded(pose));
+            let other = |&to: &u32| self.spot(to).piece != self.spot(from).piece;
+            met = self.holding(analysis, pose).filter(other);
+            met.is_some()
+        });
+        met.map(|to| Bridge { ends: [from, to], path })
+    }
+
+    /// The poses between two spots that a climb joins, if one does.
+    pub fn bridge(&self, from: u32, to: u32) -> Option<Vec<Pose>> {
+        let bridges = self.bridges.as_ref()?;
+        let backwards = || bridges.get(&[to, from]).map(|path| path.iter().rev().copied().collect());
+        bridges.get(&[from, to]).cloned().or_else(backwards)
+    }
+
+    fn name_pieces(&mut self) {
+        let mut open = Vec::new();
+        for start in 0..self.spots.len() {
+            if self.spots[start].piece != u32::MAX {
+                continue;
+            }
+            open.push(start as u32);
+            while let Some(spot) = open.pop() {
+                if self.spots[spot as usize].piece == u32::MAX {
+                    self.spots[spot as usize].piece = start as u32;
+                    open.extend_from_slice(self.around(spot));
+                }
+            }
+        }
+    }
+
+    fn around(&self, spot: u32) -> &[u32] {
+        let i = spot as usize;
+        &self.next[self.first[i] as usize..self.first[i + 1] as usize]
+    }
+
+    pub fn spot(&self, spot: u32) -> &Spot {
+        &self.spots[spot as usize]
+    }
+
+    /// The spot whose box holds a pose.
+    pub fn holding(&self, analysis: &Analysis, pose: &[f64]) -> Option<u32> {
+        let (node, _) = analysis.paving.find(&sight(self.class, self.depth), pose)?;
+        self.nodes.binary_search(&node).ok().map(|spot| spot as u32)
+    }
+
+    /// The cheapest way from a spot to another (A*), both ends included, over spots whose centres keep the margins; none through
+    /// `blocked` pairs.
+    pub fn way(
+        &self,
+        cost: &Cost<'_>,
+        margins: Margins,
+        blocked: &HashSet<(u32, u32)>,
+        [start, goal]: [u32; 2],
+    ) -> Option<Vec<u32>> {
+        let mut best = vec![f64::INFINITY; self.spots.len()];
+        let mut from = vec![u32::MAX; self.spots.len()];
+        let mut open = BinaryHeap::new();
+        let target = self.spot(goal).centre;
+        let keeps = |spot: u32| {
+            let m = self.spot(spot).measures;
+            m.parallel >= margins.parallel && m.serial >= margins.serial
+        };
+        best[start as usize] = 0.0;
+        open.push(Open { estimate: 0.0, cost: 0.0, spot: start });
+        while let Some(Open { cost: so_far, spot, .. }) = open.pop() {
+            if spot == goal {
+                break;
+            }
+            if so_far > best[spot as usize] {
+                continue;
+            }
+            let here = self.spot(spot);
+            let density = cost.density(here.measures);
+            for &next in self.around(spot) {
+                if !keeps(next) || blocked.contains(&(spot, next)) {
+                    continue;
+                }
+                let there = self.spot(next);
+                let length = cost.distance(&here.centre, &cost.beside(&here.centre, &there.centre));
+                let total = so_far + 0.5 * length * (density + cost.density(there.measures));
+                if total < best[next as usize] {
+                    best[next as usize] = total;
+                    from[next as usize] = spot;
+                    let rest = cost.distance(&there.centre, &cost.beside(&there.centre, &target));
+                    open.push(Open { estimate: total + rest, cost: total, spot: next });
+                }
+            }
+        }
+        best[goal as usize].is_finite().then(|| {
+            let mut way = vec![goal];
+            while way[way.len() - 1] != start {
+                way.push(from[way[way.len() - 1] as usize]);
+            }
+            way.reverse();
+            way
+        })
+    }
+}
+
+impl Spot {
+    /// Where this box and one that touches it meet: the middle of their common part, with their centres turned to be `here` and `there`.
+    pub fn meeting(&self, other: &Self, here: &Pose, there: &Pose) -> Pose {
+        std::array::from_fn(|k| {
+            let lo = (here[k] - self.half[k]).max(there[k] - other.half[k]);
+            let hi = (here[k] + self.half[k]).min(there[k] + other.half[k]);
+            0.5 * (lo + hi)
+        })
+    }
+}
+
+/// A spot to go on from, the cheapest first.
+struct Open {
+    estimate: f64,
+    cost: f64,
+    spot: u32,
+}
+
+impl Ord for Open {
+    fn cmp(&self, other: &Self) -> Ordering {
+        other.estimate.total_cmp(&self.estimate).then(other.spot.cmp(&self.spot))
+    }
+}
+
+impl PartialOrd for Open {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Open {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Open {}
+
+/// The boxes inside a class, not deeper than `depth`.
+fn sight(class: usize, depth: u32) -> impl Fn(&Node) -> Mark {
+    move |node| match node.of_classes(1 << class) {
+        Mark::Open if node.first_child == 0 || u32::from(node.depth) >= depth => Mark::Outside,
+        mark => mark,
+    }
+}
