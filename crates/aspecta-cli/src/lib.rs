@@ -4,6 +4,7 @@
 
 pub mod domains;
 pub mod doubt;
+pub mod export;
 pub mod figure;
 pub mod file;
 pub mod mesh;

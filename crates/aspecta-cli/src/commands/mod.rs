@@ -9,6 +9,7 @@ mod cusps;
 mod domains;
 mod doubts;
 mod drawing;
+mod export;
 mod fix;
 mod fk;
 mod follow;
@@ -22,6 +23,7 @@ mod robots;
 mod schema;
 mod solutions;
 mod solve;
+mod start;
 mod state;
 mod summary;
 mod target;
@@ -55,6 +57,8 @@ pub enum Command {
     CheckPath(check_path::CheckPath),
     /// Follow one solution along a stream of joint vectors (or poses), every step certified, as it comes
     Follow(follow::Follow),
+    /// The robot as a file for another program
+    Export(export::Export),
     /// List the robots of the catalogue, or show one's file
     Robots(robots::Robots),
     /// Check a robot file
@@ -79,6 +83,7 @@ impl Command {
             Self::Cusps(command) => command.run(out),
             Self::CheckPath(command) => command.run(out),
             Self::Follow(command) => command.run(out),
+            Self::Export(command) => command.run(out),
             Self::Robots(command) => command.run(out),
             Self::Check(command) => command.run(out),
             Self::Schema(command) => command.run(out),

@@ -21,7 +21,7 @@ pub mod raster;
 pub mod regions;
 pub mod robot;
 pub mod section;
-mod skeleton;
+pub(crate) mod skeleton;
 pub mod slices;
 pub mod stack;
 pub mod strips;

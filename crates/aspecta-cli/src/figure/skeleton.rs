@@ -109,14 +109,14 @@ fn lift<const D: usize>(v: [f64; D]) -> Point {
     std::array::from_fn(|k| v.get(k).copied().unwrap_or(0.0))
 }
 
-pub(super) fn plus(a: Point, b: Point) -> Point {
+pub(crate) fn plus(a: Point, b: Point) -> Point {
     std::array::from_fn(|k| a[k] + b[k])
 }
 
-pub(super) fn minus(a: Point, b: Point) -> Point {
+pub(crate) fn minus(a: Point, b: Point) -> Point {
     std::array::from_fn(|k| a[k] - b[k])
 }
 
-pub(super) fn times(s: f64, a: Point) -> Point {
+pub(crate) fn times(s: f64, a: Point) -> Point {
     a.map(|x| s * x)
 }

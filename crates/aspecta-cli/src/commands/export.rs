@@ -1,0 +1,76 @@
+//! `aspecta export`: robots as files of other programs.
+
+use super::start;
+use super::target::Target;
+use crate::failure::{Answer, Failure};
+use crate::input::{self, Columns};
+use crate::output::note;
+use aspecta_cli::export::mjcf;
+use clap::{Args, Subcommand};
+use std::io::Write;
+use std::path::PathBuf;
+
+/// Arguments of `export`.
+#[derive(Args)]
+pub struct Export {
+    #[command(subcommand)]
+    format: Format,
+}
+
+#[derive(Subcommand)]
+enum Format {
+    /// A model for MuJoCo, with closed loops and a servo for every driven joint
+    Mjcf(Mjcf),
+}
+
+/// Arguments of `export mjcf`.
+#[derive(Args)]
+struct Mjcf {
+    /// Name from `aspecta robots`, or path of a robot file
+    robot: String,
+    /// The pose in which the model starts [default: one far from singularities]
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
+    pose: Option<String>,
+    /// The working mode in which it starts, such as `+-+` [default: that farthest from singularities]
+    #[arg(long, value_name = "SIGNS", allow_hyphen_values = true)]
+    mode: Option<String>,
+    /// Angles of --pose are in degrees
+    #[arg(long, requires = "pose")]
+    deg: bool,
+    /// Write the model into this file instead of stdout
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
+impl Export {
+    pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
+        match &self.format {
+            Format::Mjcf(mjcf) => mjcf.run(out),
+        }
+    }
+}
+
+impl Mjcf {
+    fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
+        let robot = input::robot(&self.robot)?;
+        let mode = self.mode.as_deref().map(|m| input::mode(&robot, m)).transpose()?;
+        let target = self.out.as_deref().map(|path| Target::new("--out", path)).transpose()?;
+        let start = match &self.pose {
+            Some(list) => {
+                let pose = input::list("--pose", list, &Columns::pose(&robot), self.deg)?;
+                start::at(&robot, &pose, mode)?
+            }
+            None => start::anywhere(&robot, mode)?,
+        };
+        let model = mjcf::model(&robot, &start);
+        match target {
+            Some(target) => writeln!(out, "written: {}", target.write(model)?.display())?,
+            None => out.write_all(model.as_bytes())?,
+        }
+        let left_out = mjcf::left_out(&robot);
+        if !left_out.is_empty() {
+            note(&format!("the model lacks the limits of passive joints: {}", left_out.join(", ")));
+        }
+        Ok(Answer::Yes)
+    }
+}

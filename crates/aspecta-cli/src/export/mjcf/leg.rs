@@ -1,0 +1,187 @@
+//! A leg as bodies and joints.
+//!
+//! In the start configuration all bodies of legs are aligned with the base, so positions and axes are written in its axes.
+
+use super::element::Element;
+use crate::figure::skeleton::{LegShape, Point, minus, times};
+use aspecta::num::Interval;
+use aspecta::robot::{Actuator, Leg, Limit, Platform};
+use std::f64::consts::TAU;
+
+/// Mass of a link. All forces are inertial, so only ratios of masses matter.
+const LINK: f64 = 0.1;
+/// The driven joint's inertia is this many times that of what it moves, so that the servo alone says where it is.
+const DRIVEN: f64 = 1000.0;
+/// The servo is critically damped, with this natural frequency (rad/s).
+const FREQUENCY: f64 = 100.0;
+/// Passive joints lose their speed with this rate (1/s): rods between balls turn idly about themselves.
+const DAMPING: f64 = 1.0;
+
+/// A leg in the start configuration.
+pub struct Limb<'a> {
+    /// Its number, from 1.
+    pub number: usize,
+    pub leg: &'a Leg,
+    pub shape: &'a LegShape,
+    /// Its driven joint.
+    pub q: f64,
+    pub platform: Platform,
+    /// Half the thickness of what is drawn.
+    pub thickness: f64,
+}
+
+impl Limb<'_> {
+    /// Its first body, with all others in it; the last one has the site `end…`, which belongs at the platform's `attachment…`.
+    pub fn body(&self) -> Element {
+        let LegShape { a, c, .. } = *self.shape;
+        // Struts have no B: there is nothing between their driven joint and C.
+        let b = self.shape.b.unwrap_or(a);
+        match self.leg.actuator {
+            Actuator::Revolute { .. } => {
+                let rod = self.link("rod", minus(b, a), [[0.0; 3], minus(c, b)]).child(self.passive("elbow"));
+                let rod = self.ended(rod, minus(c, b));
+                self.link("crank", a, [[0.0; 3], minus(b, a)])
+                    .child(self.driven("hinge", self.axis(2)))
+                    .child(rod)
+            }
+            Actuator::Prismatic { .. } => {
+                let rod = self.link("rod", [0.0; 3], [[0.0; 3], minus(c, b)]).child(self.passive("elbow"));
+                let rod = self.ended(rod, minus(c, b));
+                self.link("slider", b, [[0.0; 3], times(0.1, minus(c, b))])
+                    .child(self.driven("slide", self.axis(0)))
+                    .child(rod)
+            }
+            Actuator::Strut => {
+                let span = minus(c, a);
+                let piston = self.link("piston", [0.0; 3], [times(0.5, span), span]);
+                let piston = piston.child(self.driven("slide", times(1.0 / self.q, span)));
+                self.link("cylinder", a, [[0.0; 3], times(0.5, span)])
+                    .child(self.passive("base"))
+                    .child(self.ended(piston, span))
+            }
+            Actuator::Spherical { .. } => {
+                let distal = self.link("distal", [0.0; 3], [b, c]).child(self.hinge("elbow", b));
+                self.link("proximal", [0.0; 3], [a, b])
+                    .child(self.driven("hinge", self.axis(2)))
+                    .child(self.ended(distal, c))
+            }
+        }
+    }
+
+    /// What holds the leg and the platform together.
+    pub fn closure(&self) -> Element {
+        Element::new("connect")
+            .with("name", self.named("closure"))
+            .with("site1", self.named("end"))
+            .with("site2", self.named("attachment"))
+    }
+
+    /// The servo of the driven joint.
+    pub fn servo(&self) -> Element {
+        let stiffness = self.armature() * FREQUENCY * FREQUENCY;
+        let servo = Element::new("position").with("name", self.named("q")).with("joint", self.named("q"));
+        servo.numbers("kp", &[stiffness]).numbers("kv", &[2.0 * stiffness / FREQUENCY])
+    }
+
+    /// q, for angles with limits the one of its turns that lies within them.
+    pub fn reading(&self) -> f64 {
+        match self.range() {
+            Some((low, high)) if self.leg.actuator.is_angle() => {
+                self.q + TAU * ((0.5 * (low + high) - self.q) / TAU).round()
+            }
+            _ => self.q,
+        }
+    }
+
+    /// The range of the driven joint, if it has one (rad or length).
+    fn range(&self) -> Option<(f64, f64)> {
+        self.leg.limits.iter().find_map(|limit| match limit {
+            Limit::ActuatorAngle { middle: (cos, sin), half_cos } => {
+                let (middle, half) = (sin.mid().atan2(cos.mid()), half_cos.mid().acos());
+                Some((middle - half, middle + half))
+            }
+            Limit::ActuatorLength { min, max } => Some((min.mid(), max.mid())),
+            _ => None,
+        })
+    }
+
+    fn named(&self, name: &str) -> String {
+        format!("{name}{}", self.number)
+    }
+
+    /// A vector of the leg's frame, in the base.
+    fn axis(&self, k: usize) -> Point {
+        self.leg.frame[k].map(Interval::mid)
+    }
+
+    /// A body at `place` (in its parent) that is a straight piece between `ends` (in itself).
+    fn link(&self, name: &str, place: Point, ends: [Point; 2]) -> Element {
+        let middle = times(0.5, [0, 1, 2].map(|k| ends[0][k] + ends[1][k]));
+        let inertia = LINK * self.size().powi(2);
+        let inertial = Element::new("inertial").vector("pos", middle).numbers("mass", &[LINK]);
+        let shape = Element::new("geom").with("type", "capsule").numbers("size", &[self.thickness]);
+        Element::new("body")
+            .with("name", self.named(name))
+            .vector("pos", place)
+            .child(inertial.vector("diaginertia", [inertia; 3]))
+            .child(shape.numbers("fromto", &ends.concat()))
+    }
+
+    fn ended(&self, body: Element, place: Point) -> Element {
+        body.child(Element::new("site").with("name", self.named("end")).vector("pos", place))
+    }
+
+    /// The driven joint `q…`, which reads q in the start configuration.
+    fn driven(&self, kind: &str, axis: Point) -> Element {
+        let joint =
+            Element::new("joint").with("name", self.named("q")).with("type", kind).vector("axis", axis);
+        let joint = joint.numbers("ref", &[self.reading()]).numbers("armature", &[self.armature()]);
+        match self.range() {
+            Some((low, high)) => joint.numbers("range", &[low, high]),
+            None => joint,
+        }
+    }
+
+    /// A passive joint at the body's origin: about the plane's normal, or a ball.
+    fn passive(&self, name: &str) -> Element {
+        if self.platform.space() == 2 {
+            return self.hinge(name, [0.0, 0.0, 1.0]);
+        }
+        self.damped(Element::new("joint").with("name", self.named(name)).with("type", "ball"))
+    }
+
+    fn hinge(&self, name: &str, axis: Point) -> Element {
+        let joint = Element::new("joint").with("name", self.named(name)).with("type", "hinge");
+        self.damped(joint.vector("axis", axis))
+    }
+
+    fn damped(&self, joint: Element) -> Element {
+        joint.numbers("damping", &[DAMPING * LINK * self.size().powi(2)])
+    }
+
+    /// A typical length of the leg.
+    fn size(&self) -> f64 {
+        match self.leg.actuator {
+            Actuator::Strut => self.q,
+            actuator => actuator.size(),
+        }
+    }
+
+    fn armature(&self) -> f64 {
+        if self.leg.actuator.is_angle() { DRIVEN * self.size().powi(2) } else { DRIVEN }
+    }
+}
+
+/// The limits that the model does not have, as `elbow of leg 1`: those of passive joints.
+pub fn left_out(legs: &[Leg]) -> Vec<String> {
+    let name = |limit: &Limit| match limit {
+        Limit::ActuatorAngle { .. } | Limit::ActuatorLength { .. } => None,
+        Limit::Elbow { .. } | Limit::SpatialElbow { .. } => Some("elbow"),
+        Limit::BaseCone { .. } => Some("base-joint"),
+        Limit::PlatformCone { .. } => Some("platform-joint"),
+    };
+    let of = |(k, leg): (usize, &Leg)| -> Vec<String> {
+        leg.limits.iter().filter_map(name).map(|name| format!("{name} of leg {}", k + 1)).collect()
+    };
+    legs.iter().enumerate().flat_map(of).collect()
+}

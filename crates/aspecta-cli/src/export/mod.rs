@@ -1,0 +1,3 @@
+//! Robots as files of other programs.
+
+pub mod mjcf;
