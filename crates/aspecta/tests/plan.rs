@@ -85,3 +85,99 @@ fn random_pairs() {
         println!("{name} {:?}", pairs(name, depth, mode, 100));
     }
 }
+
+/// The least |det Â| and the least |B_jj| / max along a path: sampled.
+fn least(robot: &Robot, plan: &Plan) -> [f64; 2] {
+    let mut least = [f64::INFINITY; 2];
+    for ends in plan.waypoints.windows(2) {
+        for i in 0..=200 {
+            let t = f64::from(i) / 200.0;
+            let pose: Vec<f64> = ends[0].iter().zip(&ends[1]).map(|(a, b)| a + t * (b - a)).collect();
+            let q = robot.inverse_in(&pose, plan.mode).unwrap().unwrap();
+            let state = robot.state(&pose, &q).unwrap();
+            least[0] = least[0].min(state.det_a.abs());
+            least[1] = state.serial_measures.iter().copied().fold(least[1], f64::min);
+        }
+    }
+    least
+}
+
+#[test]
+fn table_4() {
+    let robot = catalogue::find("3-rrr").unwrap();
+    let start = Instant::now();
+    let analysis = analysed(&robot, 7, &["+++"]);
+    println!("{:?}", start.elapsed());
+    let mut planner = Planner::new(&analysis);
+    let mode = "+++".parse().unwrap();
+    let points = [[-15.468, 0.781, 0.073], [-15.468, -7.091, 0.500], [-9.902, -7.091, 1.081]];
+    let table = Plan {
+        waypoints: points.map(|p| p.to_vec()).to_vec(),
+        ..planner.plan(mode, &points[0], &points[2], &PlanOptions::default()).unwrap()
+    };
+    println!("table {:?}", least(&robot, &table));
+    for weight in [0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0] {
+        let start = Instant::now();
+        let plan = planner
+            .plan(mode, &points[0], &points[2], &PlanOptions { weight, ..PlanOptions::default() })
+            .unwrap();
+        println!(
+            "{weight} {:?} {:.2} {:?} {:?}",
+            least(&robot, &plan),
+            plan.length,
+            start.elapsed(),
+            plan.waypoints
+        );
+        assert_sound(&robot, &plan);
+    }
+}
+#[test]
+fn rpr() {
+    let robot = catalogue::find("3-rpr").unwrap();
+    let start = Instant::now();
+    let analysis = analysed(&robot, 7, &[]);
+    println!("{:?}", start.elapsed());
+    let mut planner = Planner::new(&analysis);
+    let mode = "---".parse().unwrap();
+    let all = robot.direct(&[14.98, 15.38, 12.0]).unwrap();
+    for a in all.iter() {
+        for b in all.iter() {
+            let start = Instant::now();
+            let plan =
+                planner.plan(mode, &a.pose, &b.pose, &PlanOptions { weight: 1.0, ..PlanOptions::default() });
+            match plan {
+                Ok(plan) => println!(
+                    "{:?} {:.2} {:?} {:?}",
+                    least(&robot, &plan),
+                    plan.length,
+                    start.elapsed(),
+                    plan.waypoints
+                ),
+                Err(e) => println!("{e}"),
+            };
+        }
+    }
+}
+
+#[test]
+fn modes_of_the_five_bar() {
+    for (name, depth) in [
+        ("five-bar", 11),
+        ("symmetric-five-bar", 11),
+        ("2-prr", 11),
+        ("irb-360", 6),
+        ("delta", 6),
+        ("3-rrr", 6),
+    ] {
+        let robot = catalogue::find(name).unwrap();
+        let start = Instant::now();
+        let analysis = analysed(&robot, depth, &[]);
+        println!("{name} {:?}", start.elapsed());
+        let start = Instant::now();
+        let graph = aspecta::motion::modes::ModeGraph::new(&analysis);
+        println!("{:?} {:?}", start.elapsed(), graph.groups);
+        for c in &graph.crossings {
+            println!("{:?} {} {:.4} {:?} {:?}", c.aspects, c.leg, c.clearance, c.pose, c.inside);
+        }
+    }
+}

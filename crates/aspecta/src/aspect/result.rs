@@ -104,6 +104,11 @@ impl Analysis {
         Some((class, &self.classes[class].aspects[i]))
     }
 
+    /// The class (index into [`Analysis::classes`]) of a mode and a sign of det A, if it was analysed.
+    pub fn class_of(&self, mode: WorkingMode, det_a: DetSign) -> Option<usize> {
+        self.classes.iter().position(|class| class.mode == mode && class.det_a == det_a)
+    }
+
     /// The [`Aspect::id`] of the aspect that a pose of class `class` lies in; `None` if the pose is not in the class, or lies in
     /// an undecided cell from which no certified ascent leads into a cell of an aspect. Certified where `Some`.
     pub fn aspect_at(&self, class: usize, pose: &[f64]) -> Option<usize> {

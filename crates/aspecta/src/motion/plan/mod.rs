@@ -9,7 +9,7 @@
 //! Definition 8.
 
 mod cost;
-mod refusal;
+pub(super) mod refusal;
 mod roadmap;
 mod shorten;
 

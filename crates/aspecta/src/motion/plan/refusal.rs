@@ -101,7 +101,7 @@ pub enum Refusal {
     },
 }
 
-fn word(sign: DetSign) -> &'static str {
+pub(in crate::motion) fn word(sign: DetSign) -> &'static str {
     if sign == DetSign::Positive { "positive" } else { "negative" }
 }
 
@@ -145,7 +145,11 @@ pub(super) fn common_sign(
 }
 
 /// The sign of det A at a pose that is proved to lie in a class.
-fn sign_at(analysis: &Analysis, mode: WorkingMode, (end, pose): (End, &[f64])) -> Result<DetSign, Refusal> {
+pub(in crate::motion) fn sign_at(
+    analysis: &Analysis,
+    mode: WorkingMode,
+    (end, pose): (End, &[f64]),
+) -> Result<DetSign, Refusal> {
     let robot = &analysis.robot;
     robot.check_pose(pose).map_err(|error| Refusal::Pose { end, error })?;
     if !analysis.classes.iter().any(|class| class.mode == mode) {
@@ -180,15 +184,19 @@ pub(super) fn common_aspect(
     det_a: DetSign,
     ends: [&[f64]; 2],
 ) -> Result<(usize, Option<usize>), Refusal> {
-    let is_it = |class: &crate::aspect::AspectClass| class.mode == mode && class.det_a == det_a;
-    let class = analysis.classes.iter().position(is_it).ok_or(Refusal::Mode(mode))?;
-    let entry = &analysis.classes[class];
-    if let ([only], Some(1)) = (&entry.aspects[..], entry.high) {
-        return Ok((class, Some(only.id)));
-    }
-    let [start, goal] = ends.map(|pose| analysis.aspect_at(class, pose));
+    let class = analysis.class_of(mode, det_a).ok_or(Refusal::Mode(mode))?;
+    let [start, goal] = ends.map(|pose| aspect_at(analysis, class, pose));
     match (start, goal) {
         (Some(start), Some(goal)) if start != goal => Err(Refusal::DifferentAspects { start, goal }),
         _ => Ok((class, start.or(goal))),
+    }
+}
+
+/// The aspect of a pose that is proved to lie in a class.
+pub(in crate::motion) fn aspect_at(analysis: &Analysis, class: usize, pose: &[f64]) -> Option<usize> {
+    let entry = &analysis.classes[class];
+    match (&entry.aspects[..], entry.high) {
+        ([only], Some(1)) => Some(only.id),
+        _ => analysis.aspect_at(class, pose),
     }
 }

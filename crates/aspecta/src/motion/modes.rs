@@ -1,0 +1,204 @@
+//! The graph of aspects joined through serial singularities, and plans across it.
+
+use super::crossing::{Crossing, crossings};
+use super::plan::refusal::{aspect_at, sign_at, word};
+use super::plan::{End, Plan, PlanOptions, Planner, Refusal};
+use crate::aspect::{Analysis, DetSign};
+use crate::kinematics::WorkingMode;
+use serde::Serialize;
+use std::collections::VecDeque;
+
+/// The aspects of a robot and the crossings between them.
+#[derive(Clone, Debug, Serialize)]
+pub struct ModeGraph {
+    /// The aspects.
+    pub aspects: Vec<GraphAspect>,
+    /// The crossings found (each proved): at most one between two aspects and leg, that with the most clearance found.
+    pub crossings: Vec<Crossing>,
+    /// Which aspects can be reached from one another: sets of [`GraphAspect::id`], ascending. That the members of a set are joined is
+    /// proved. Aspects of different signs of det A are in different sets: proved too. That sets of one sign are not joined is not.
+    pub groups: Vec<Vec<usize>>,
+}
+
+/// An aspect in the graph.
+#[derive(Clone, Debug, Serialize)]
+pub struct GraphAspect {
+    /// [`crate::aspect::Aspect::id`].
+    pub id: usize,
+    /// The working mode.
+    pub mode: WorkingMode,
+    /// The sign of det A.
+    pub det_a: DetSign,
+    /// Certified inner measure.
+    pub measure: f64,
+}
+
+/// A motion through several working modes without a parallel singularity.
+#[derive(Clone, Debug, Serialize)]
+pub struct Route {
+    /// The motions within one mode, each proved. Each but the last ends at [`Crossing::inside`] of the crossing that follows.
+    pub stretches: Vec<Plan>,
+    /// The crossings between them: from `inside` to `pose`, and back to `inside` in the other posture.
+    pub crossings: Vec<Crossing>,
+}
+
+impl ModeGraph {
+    /// The graph of an analysis of all modes.
+    pub fn new(analysis: &Analysis) -> Self {
+        let entries = analysis.classes.iter().flat_map(|class| {
+            class.aspects.iter().map(|aspect| GraphAspect {
+                id: aspect.id,
+                mode: class.mode,
+                det_a: class.det_a,
+                measure: aspect.measure,
+            })
+        });
+        let mut graph =
+            Self { aspects: entries.collect(), crossings: crossings(analysis), groups: Vec::new() };
+        let mut left: Vec<usize> = graph.aspects.iter().map(|aspect| aspect.id).collect();
+        while let Some(&first) = left.first() {
+            let group: Vec<usize> =
+                left.iter().copied().filter(|&id| graph.way(first, id).is_some()).collect();
+            left.retain(|id| !group.contains(id));
+            graph.groups.push(group);
+        }
+        graph
+    }
+
+    /// The crossings (by index) from an aspect to another: as few as possible, and of those ways the one whose least clearance is greatest.
+    pub fn way(&self, from: usize, to: usize) -> Option<Vec<usize>> {
+        // Per aspect: how many crossings away, the least clearance on the way, and the last crossing.
+        let mut best: Vec<Option<(usize, f64, usize)>> =
+            vec![None; self.aspects.iter().map(|a| a.id + 1).max()?];
+        best[from] = Some((0, f64::INFINITY, usize::MAX));
+        let mut open = VecDeque::from([from]);
+        while let Some(here) = open.pop_front() {
+            let Some((count, least, _)) = best[here] else { continue };
+            for (k, crossing) in self.crossings.iter().enumerate() {
+                let Some(there) = crossing.other_side(here) else { continue };
+                let least = least.min(crossing.clearance);
+                let better = best[there].is_none_or(|(n, c, _)| n > count + 1 || n == count + 1 && c < least);
+                if better {
+                    best[there] = Some((count + 1, least, k));
+                    open.push_back(there);
+                }
+            }
+        }
+        let (mut way, mut at) = (Vec::new(), to);
+        while at != from {
+            let (_, _, crossing) = best[at]?;
+            way.push(crossing);
+            at = self.crossings[crossing].other_side(at)?;
+        }
+        way.reverse();
+        Some(way)
+    }
+}
+
+impl Crossing {
+    /// The aspect on the other side of `aspect`, if it is on one.
+    pub fn other_side(&self, aspect: usize) -> Option<usize> {
+        match self.aspects {
+            [a, b] if a == aspect => Some(b),
+            [a, b] if b == aspect => Some(a),
+            _ => None,
+        }
+    }
+}
+
+/// A configuration: a pose in a working mode.
+#[derive(Clone, Copy, Debug)]
+pub struct Configuration<'a> {
+    /// The pose.
+    pub pose: &'a [f64],
+    /// The mode.
+    pub mode: WorkingMode,
+}
+
+/// Why there is no route.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum NoRoute {
+    /// One of the motions within a mode.
+    #[error("{0}")]
+    Plan(#[from] Refusal),
+    /// det A has two signs (proved).
+    #[error(
+        "no such motion exists, proved: det A is {} at the start and {} at the goal; it keeps its sign through every change of working mode, \
+         so every motion between them meets a parallel singularity", word(*.0), word(.0.opposite())
+    )]
+    OppositeSigns(DetSign),
+    /// The aspect of an end is not known.
+    #[error(
+        "undecided: which aspect the {0} lies in is not known at this resolution; a finer --budget may tell"
+    )]
+    Unknown(End),
+    /// No crossings lead there.
+    #[error(
+        "undecided: no way through changes of working mode was found from aspect {start} to aspect {goal}, and none is excluded"
+    )]
+    NotFound {
+        /// The [`crate::aspect::Aspect::id`] of the start.
+        start: usize,
+        /// That of the goal.
+        goal: usize,
+    },
+}
+
+impl Planner<'_> {
+    /// A motion from a configuration to another, through as few changes of working mode as the graph allows; within one aspect it is
+    /// [`Planner::plan`].
+    ///
+    /// # Errors
+    /// [`NoRoute`]. Signs of det A that differ are a proof that there is none: det A keeps its sign through every crossing.
+    pub fn route(
+        &mut self,
+        graph: &ModeGraph,
+        start: Configuration<'_>,
+        goal: Configuration<'_>,
+        options: &PlanOptions,
+    ) -> Result<Route, NoRoute> {
+        let [from, to] = self.aspects_of(start, goal)?;
+        let way = graph.way(from, to).ok_or(NoRoute::NotFound { start: from, goal: to })?;
+        let (mut here, mut at) = (start.pose.to_vec(), start.mode);
+        let mut route = Route { stretches: Vec::new(), crossings: Vec::new() };
+        for crossing in way.into_iter().map(|k| &graph.crossings[k]) {
+            let plan = self.plan(at, &here, &crossing.inside, options)?;
+            at = at.with_other_posture(crossing.leg - 1);
+            // Angles go on where the plan has brought them.
+            here = plan.waypoints[plan.waypoints.len() - 1].clone();
+            let crossing = crossing.turned_to(&here);
+            if !crossing.is_proved(&self.analysis().robot) {
+                return Err(Refusal::Unproved { pose: here }.into());
+            }
+            route.crossings.push(crossing);
+            route.stretches.push(plan);
+        }
+        route.stretches.push(self.plan(at, &here, goal.pose, options)?);
+        Ok(route)
+    }
+
+    /// The aspects of both ends.
+    fn aspects_of(&self, start: Configuration<'_>, goal: Configuration<'_>) -> Result<[usize; 2], NoRoute> {
+        let analysis = self.analysis();
+        let sign = |end, at: Configuration<'_>| sign_at(analysis, at.mode, (end, at.pose));
+        let signs = [sign(End::Start, start)?, sign(End::Goal, goal)?];
+        if signs[0] != signs[1] {
+            return Err(NoRoute::OppositeSigns(signs[0]));
+        }
+        let aspect = |end, at: Configuration<'_>| {
+            let class = analysis.class_of(at.mode, signs[0]).ok_or(Refusal::Mode(at.mode))?;
+            aspect_at(analysis, class, at.pose).ok_or(NoRoute::Unknown(end))
+        };
+        Ok([aspect(End::Start, start)?, aspect(End::Goal, goal)?])
+    }
+}
+
+impl Crossing {
+    /// The same crossing with its angles turned by full turns so that `inside` is as given (a full turn from what it was).
+    fn turned_to(&self, inside: &[f64]) -> Self {
+        let moved = |pose: &[f64]| {
+            pose.iter().zip(inside).zip(&self.inside).map(|((x, to), from)| x + (to - from)).collect()
+        };
+        Self { inside: inside.to_vec(), pose: moved(&self.pose), beyond: moved(&self.beyond), ..self.clone() }
+    }
+}
