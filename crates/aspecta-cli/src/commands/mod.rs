@@ -1,6 +1,7 @@
 //! The subcommands, one file each.
 
 mod analyze;
+mod assembly;
 mod budget;
 mod check;
 mod check_path;
@@ -17,6 +18,8 @@ mod ik;
 mod locate;
 mod mapping;
 mod places;
+mod plan;
+mod planning;
 mod queries;
 mod regions;
 mod robots;
@@ -55,6 +58,10 @@ pub enum Command {
     Cusps(cusps::Cusps),
     /// Prove that a path of straight segments meets no singularity, or find where it does
     CheckPath(check_path::CheckPath),
+    /// Plan a motion without singularities, certified, within an aspect or through changes of working mode
+    Plan(plan::Plan),
+    /// The poses of a joint vector by aspects, and how to change from one to another without a singularity
+    Assembly(assembly::Assembly),
     /// Follow one solution along a stream of joint vectors (or poses), every step certified, as it comes
     Follow(follow::Follow),
     /// The robot as a file for another program
@@ -82,6 +89,8 @@ impl Command {
             Self::State(command) => command.run(out),
             Self::Cusps(command) => command.run(out),
             Self::CheckPath(command) => command.run(out),
+            Self::Plan(command) => command.run(out),
+            Self::Assembly(command) => command.run(out),
             Self::Follow(command) => command.run(out),
             Self::Export(command) => command.run(out),
             Self::Robots(command) => command.run(out),

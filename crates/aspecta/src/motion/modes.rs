@@ -144,6 +144,22 @@ pub enum NoRoute {
     },
 }
 
+impl NoRoute {
+    /// Whether what was asked for is no question about this robot.
+    pub fn is_bad_input(&self) -> bool {
+        matches!(self, Self::Plan(refusal) if refusal.is_bad_input())
+    }
+
+    /// Whether it proves that there is no such motion.
+    pub fn is_proof(&self) -> bool {
+        match self {
+            Self::Plan(refusal) => refusal.is_proof(),
+            Self::OppositeSigns(_) => true,
+            Self::Unknown(_) | Self::NotFound { .. } => false,
+        }
+    }
+}
+
 impl Planner<'_> {
     /// A motion from a configuration to another, through as few changes of working mode as the graph allows; within one aspect it is
     /// [`Planner::plan`].

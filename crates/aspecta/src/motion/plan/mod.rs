@@ -106,7 +106,7 @@ impl Proof<'_> {
 }
 
 /// Whether a pose lies in the window. The window is convex, but for coordinates that are glued, along which it has no ends.
-fn is_in(window: &Window, pose: &[f64]) -> bool {
+pub(super) fn is_in(window: &Window, pose: &[f64]) -> bool {
     pose.iter().enumerate().all(|(k, &x)| window.fraction(k, x).is_some())
 }
 
@@ -208,7 +208,7 @@ fn coarsest(dof: usize) -> u32 {
 }
 
 /// The pose with its angles turned into the window.
-fn in_window(window: &Window, pose: &[f64]) -> Vec<f64> {
+pub(super) fn in_window(window: &Window, pose: &[f64]) -> Vec<f64> {
     pose.iter().enumerate().map(|(k, &x)| window.turned_in(k, x)).collect()
 }
 

@@ -1,0 +1,231 @@
+//! `aspecta assembly`: the poses of a joint vector by aspects, and how to change from one to another.
+
+use super::planning::{self, Analysing, Wishes};
+use super::queries::{Labels, det_a_unit};
+use crate::failure::{Answer, Failure};
+use crate::input::{self, Columns};
+use crate::output::{Align, FORMAT_VERSION, Format, ShownArgs, Table, exact, json, note, number};
+use aspecta::kinematics::WorkingMode;
+use aspecta::motion::assembly::{AssemblyModes, CuspRound, Fold, assembly_modes, cusps_round, folds};
+use aspecta::motion::modes::{Configuration, ModeGraph, NoRoute, Route};
+use aspecta::motion::plan::{Plan, Planner};
+use aspecta::robot::Robot;
+use clap::Args;
+use serde::Serialize;
+use std::io::Write;
+
+/// Arguments of `assembly`.
+#[derive(Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Assembly {
+    /// Name from `aspecta robots`, or path of a robot file
+    robot: String,
+    /// The joint vector, one number per leg
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
+    q: String,
+    /// Plan a change from this direct solution, by its number in the list …
+    #[arg(long, value_name = "I", requires = "to", value_parser = clap::value_parser!(u8).range(1..))]
+    from: Option<u8>,
+    /// … to this one
+    #[arg(long, value_name = "J", requires = "from", value_parser = clap::value_parser!(u8).range(1..))]
+    to: Option<u8>,
+    /// Say what the change goes round: where direct solutions vanish and appear on the way, and cusps
+    #[arg(long, requires = "to")]
+    explain: bool,
+    #[command(flatten)]
+    wishes: Wishes,
+    #[command(flatten)]
+    analysing: Analysing,
+    #[command(flatten)]
+    shown: ShownArgs,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  aspecta assembly 3-rpr --q 14.98,15.38,12
+  aspecta assembly 3-rpr --q 14.98,15.38,12 --from 2 --to 3 --explain
+Solutions in one aspect can be changed into each other without meeting a singularity; those whose det A differs in sign cannot.
+Exit status: 0 listed, or planned; 1 no such change (it says whether that is proved), or the list is not proved complete; 2 bad input.";
+
+#[derive(Serialize)]
+struct Document<'a> {
+    format_version: u32,
+    robot: &'a str,
+    #[serde(flatten)]
+    found: &'a AssemblyModes,
+}
+
+/// What was found.
+struct Found {
+    modes: AssemblyModes,
+    change: Option<Result<Route, NoRoute>>,
+    explained: Option<(Vec<Fold>, Vec<CuspRound>)>,
+}
+
+impl Assembly {
+    pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
+        let robot = input::robot(&self.robot)?;
+        let options = self.wishes.options()?;
+        let q = input::list("--q", &self.q, &Columns::joints(&robot), self.shown.deg)?;
+        let solutions = robot.direct(&q)?;
+        let chosen = self.from.zip(self.to).map(|(i, j)| [usize::from(i), usize::from(j)]);
+        if let Some(wrong) = chosen.into_iter().flatten().find(|&k| k > solutions.len()) {
+            let count = solutions.len();
+            return Err(Failure::Input(format!(
+                "solution {wrong}: this joint vector has {count} direct solutions"
+            )));
+        }
+        let through = chosen.is_some_and(|[i, j]| solutions[i - 1].mode != solutions[j - 1].mode);
+        let mut modes: Vec<WorkingMode> = solutions.iter().map(|s| s.mode).collect();
+        modes.sort_unstable();
+        modes.dedup();
+        if through || modes.is_empty() {
+            modes.clear();
+        }
+        let found = self.analysing.with(&robot, &modes, |analysis, control| {
+            let modes = assembly_modes(analysis, &q)?;
+            let Some([from, to]) = chosen else { return Ok(Found { modes, change: None, explained: None }) };
+            let [start, goal] = [from, to].map(|k| {
+                let solution = &modes.solutions[k - 1].solution;
+                Configuration { pose: &solution.pose, mode: solution.mode }
+            });
+            let mut planner = Planner::new(analysis);
+            let change = if through {
+                planner.route(&ModeGraph::new(analysis), start, goal, &options)
+            } else {
+                let plan = planner.plan(start.mode, start.pose, goal.pose, &options);
+                plan.map(|plan| Route { stretches: vec![plan], crossings: Vec::new() }).map_err(NoRoute::from)
+            };
+            let plan =
+                change.as_ref().ok().filter(|_| self.explain && !through).map(|route| &route.stretches[0]);
+            let explain = |plan: &Plan| {
+                let round = if robot.dof() == 3 { cusps_round(&robot, plan, control)? } else { Vec::new() };
+                Ok::<_, Failure>((folds(&robot, plan), round))
+            };
+            let explained = plan.map(explain).transpose()?;
+            Ok(Found { modes, change: Some(change), explained })
+        })?;
+        self.print(out, &robot, &found)
+    }
+
+    fn print(&self, out: &mut dyn Write, robot: &Robot, found: &Found) -> Result<Answer, Failure> {
+        let Some(change) = &found.change else {
+            match self.shown.format() {
+                Format::Json => {
+                    let (format_version, robot) = (FORMAT_VERSION, robot.name.as_str());
+                    json(out, &Document { format_version, robot, found: &found.modes })?;
+                }
+                Format::Csv => print_csv(out, robot, &found.modes)?,
+                Format::Table => print_list(out, robot, &found.modes, self.shown.deg)?,
+            }
+            return Ok(Answer::from(found.modes.complete));
+        };
+        let answer = planning::print(out, robot, change, self.shown)?;
+        if let (Format::Table, Some((folds, cusps))) = (self.shown.format(), &found.explained) {
+            explain(out, robot, folds, cusps, self.shown.deg)?;
+        } else if self.explain && self.shown.format() != Format::Table {
+            note("--explain is for people: it is left out of JSON and CSV");
+        }
+        Ok(answer)
+    }
+}
+
+fn print_list(
+    out: &mut dyn Write,
+    robot: &Robot,
+    found: &AssemblyModes,
+    degrees: bool,
+) -> Result<(), Failure> {
+    let (pose, joints) = (Labels::pose(robot, degrees), Labels::joints(robot, degrees));
+    let count = found.solutions.len();
+    let all = if found.complete { "proved to be all" } else { "not proved to be all" };
+    writeln!(out, "{}: {count} direct solutions at {} ({all})", robot.name, joints.sentence(&found.q))?;
+    let right = |name: String| (name, Align::Right);
+    let headings = [right("solution".into())].into_iter().chain(pose.headings().map(right));
+    let last = [
+        ("mode".to_owned(), Align::Left),
+        right(format!("det A{}", det_a_unit(robot))),
+        right("aspect".into()),
+    ];
+    let mut table = Table::new(headings.chain(last));
+    for s in &found.solutions {
+        let aspect = match (s.aspect, s.solution.within_limits) {
+            (Some(id), _) => id.to_string(),
+            (None, false) => "beyond limits".into(),
+            (None, true) => "undecided".into(),
+        };
+        let last = [s.solution.mode.to_string(), number(s.solution.det_a), aspect];
+        table.row([s.number.to_string()].into_iter().chain(pose.numbers(&s.solution.pose)).chain(last));
+    }
+    write!(out, "{table}")?;
+    for shared in &found.shared {
+        let list = shared.solutions.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
+        writeln!(
+            out,
+            "aspect {}: solutions {list} can be changed into one another without a singularity (certified)",
+            shared.aspect
+        )?;
+    }
+    if found.shared.is_empty() {
+        writeln!(out, "no two of them lie in one aspect")?;
+    }
+    Ok(())
+}
+
+fn print_csv(out: &mut dyn Write, robot: &Robot, found: &AssemblyModes) -> Result<(), Failure> {
+    let mut csv = csv::Writer::from_writer(out);
+    let names = Columns::pose(robot).names;
+    let last = ["mode", "det_a", "aspect"].map(String::from);
+    csv.write_record(["solution".to_owned()].into_iter().chain(names).chain(last))?;
+    for s in &found.solutions {
+        let aspect = s.aspect.map_or(String::new(), |id| id.to_string());
+        let last = [s.solution.mode.to_string(), exact(s.solution.det_a), aspect];
+        let pose = s.solution.pose.iter().map(|x| exact(*x));
+        csv.write_record([s.number.to_string()].into_iter().chain(pose).chain(last))?;
+    }
+    csv.flush()?;
+    Ok(())
+}
+
+fn explain(
+    out: &mut dyn Write,
+    robot: &Robot,
+    folds: &[Fold],
+    cusps: &[CuspRound],
+    degrees: bool,
+) -> Result<(), Failure> {
+    let (pose, joints) = (Labels::pose(robot, degrees), Labels::joints(robot, degrees));
+    writeln!(out, "\nWhat it goes round (numerical)")?;
+    for fold in folds {
+        let (before, after) = fold.solutions;
+        let what = if before > after { "vanish" } else { "appear" };
+        writeln!(
+            out,
+            "  at {:.1} % of the way, two other poses of the joint vector {what} ({before} -> {after}): they meet at {}",
+            100.0 * fold.at,
+            pose.sentence(&fold.meeting)
+        )?;
+    }
+    if folds.is_empty() {
+        writeln!(out, "  the number of direct solutions is the same all along")?;
+    }
+    for round in cusps {
+        let times =
+            if round.turns.abs() == 1 { String::new() } else { format!(" {} times", round.turns.abs()) };
+        let way = if round.turns > 0 { "counter-clockwise" } else { "clockwise" };
+        writeln!(
+            out,
+            "  round{times} the cusp at {} ({way}, seen along q{}; three poses meet there, at {})",
+            joints.sentence(&round.cusp.q),
+            round.held,
+            pose.sentence(&round.cusp.pose)
+        )?;
+    }
+    if cusps.is_empty() {
+        writeln!(
+            out,
+            "  round no cusp of the slice in which the joint that varies least is held at its mean"
+        )?;
+    }
+    Ok(())
+}

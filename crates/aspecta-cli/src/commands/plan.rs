@@ -1,0 +1,76 @@
+//! `aspecta plan`: from one pose to another without a singularity, or the proof that there is no such way.
+
+use super::planning::{self, Analysing, Wishes};
+use crate::failure::{Answer, Failure};
+use crate::input::{self, Columns};
+use crate::output::ShownArgs;
+use aspecta::kinematics::WorkingMode;
+use aspecta::motion::modes::{Configuration, ModeGraph, NoRoute, Route};
+use aspecta::motion::plan::Planner;
+use clap::Args;
+use std::io::Write;
+
+/// Arguments of `plan`.
+#[derive(Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Plan {
+    /// Name from `aspecta robots`, or path of a robot file
+    robot: String,
+    /// The pose to start from: x,y | x,y,phi | x,y,z | roll,pitch,yaw
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
+    from: String,
+    /// The pose to go to; angles count modulo a full turn
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
+    to: String,
+    /// The working mode, such as `+-`
+    #[arg(long, allow_hyphen_values = true)]
+    mode: String,
+    /// The working mode to arrive in, if it is another: legs then change their postures on the way
+    #[arg(long, value_name = "MODE", allow_hyphen_values = true)]
+    to_mode: Option<String>,
+    /// Legs may change their postures on the way although the mode is the same at both ends
+    #[arg(long)]
+    through_modes: bool,
+    #[command(flatten)]
+    wishes: Wishes,
+    #[command(flatten)]
+    analysing: Analysing,
+    #[command(flatten)]
+    shown: ShownArgs,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  aspecta plan five-bar --from 4,7 --to 1,10 --mode +-
+  aspecta plan five-bar --from 4,7 --to 4,7 --mode ++ --to-mode --
+  aspecta plan 3-rrr --from -15.468,0.781,0.073 --to -9.902,-7.091,1.081 --mode +++ --weight 8
+Every segment is proved by intervals. With --csv the waypoints can be read by `aspecta check-path` (one mode).
+Exit status: 0 planned; 1 no such path (it says whether that is proved); 2 bad input.";
+
+impl Plan {
+    pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
+        let robot = input::robot(&self.robot)?;
+        let options = self.wishes.options()?;
+        let columns = Columns::pose(&robot);
+        let from = input::list("--from", &self.from, &columns, self.shown.deg)?;
+        let to = input::list("--to", &self.to, &columns, self.shown.deg)?;
+        let mode = input::mode(&robot, &self.mode)?;
+        let to_mode = self.to_mode.as_deref().map_or(Ok(mode), |text| input::mode(&robot, text))?;
+        let through = self.through_modes || mode != to_mode;
+        let modes: &[WorkingMode] = if through { &[] } else { &[mode] };
+        let result = self.analysing.with(&robot, modes, |analysis, _| {
+            let mut planner = Planner::new(analysis);
+            if !through {
+                let plan = planner.plan(mode, &from, &to, &options);
+                return Ok(plan
+                    .map(|plan| Route { stretches: vec![plan], crossings: Vec::new() })
+                    .map_err(NoRoute::from));
+            }
+            let graph = ModeGraph::new(analysis);
+            let [start, goal] =
+                [Configuration { pose: &from, mode }, Configuration { pose: &to, mode: to_mode }];
+            Ok(planner.route(&graph, start, goal, &options))
+        })?;
+        planning::print(out, &robot, &result, self.shown)
+    }
+}

@@ -1,0 +1,235 @@
+//! What the commands that plan motions share: the analysis they plan over, and how plans are shown.
+
+use super::budget;
+use super::queries::Labels;
+use super::watch::watched;
+use crate::failure::{Answer, Failure};
+use crate::output::{Align, FORMAT_VERSION, Format, ShownArgs, Table, brief, exact, json, note, number};
+use aspecta::aspect::{Analysis, Options, analyze};
+use aspecta::kinematics::WorkingMode;
+use aspecta::kinematics::demand::Margins;
+use aspecta::motion::modes::{NoRoute, Route};
+use aspecta::motion::plan::PlanOptions;
+use aspecta::motion::{PathCheck, check_path};
+use aspecta::paving::Budget;
+use aspecta::robot::Robot;
+use clap::Args;
+use serde::Serialize;
+use std::io::Write;
+
+/// How the robot is analysed before anything is planned.
+#[derive(Args)]
+pub struct Analysing {
+    /// When to stop telling the aspects apart, as for `analyze` [default: depth=11 for 2 coordinates, depth=7 for 3]
+    #[arg(long, value_parser = budget::parse, allow_hyphen_values = true)]
+    budget: Option<Budget>,
+    /// Number of threads [default: all cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+}
+
+impl Analysing {
+    /// The aspects of a robot, or of some of its modes (none: all), and what `work` makes of them.
+    pub fn with<T>(
+        &self,
+        robot: &Robot,
+        modes: &[WorkingMode],
+        work: impl FnOnce(&Analysis, &aspecta::paving::Control<'_>) -> Result<T, Failure>,
+    ) -> Result<T, Failure> {
+        let coarse = Budget { depth: Some(if robot.dof() == 2 { 11 } else { 7 }), ..Budget::default() };
+        let options =
+            Options { budget: self.budget.unwrap_or(coarse), modes: modes.to_vec(), ..Options::default() };
+        watched(self.threads, |control| {
+            let analysis = analyze(robot, &options, control)?;
+            work(&analysis, control)
+        })?
+    }
+}
+
+/// What kind of path is wanted.
+#[derive(Args)]
+pub struct Wishes {
+    /// How much nearness to singularities counts: a unit of length costs c^-W, c being the smaller of the normalised |det A| and the
+    /// |B_jj|/max. 0: the shortest path; 8: as good as only the least clearance
+    #[arg(long, value_name = "W", default_value_t = 1.0)]
+    weight: f64,
+    /// Keep at least this far from singularities all along, proved: the normalised |det A|, or that and the |B_jj|/max, each from 0 to 1
+    #[arg(long, value_name = "M[,N]")]
+    avoid: Option<String>,
+}
+
+impl Wishes {
+    /// As the library takes them.
+    pub fn options(&self) -> Result<PlanOptions, Failure> {
+        if !(self.weight >= 0.0 && self.weight <= 64.0) {
+            return Err(Failure::Input(format!("--weight {}: give a number from 0 to 64", self.weight)));
+        }
+        let wrong = |text: &str| {
+            Failure::Input(format!(
+                "--avoid `{text}`: give one number from 0 to 1, or two separated by a comma"
+            ))
+        };
+        let mut margins = [0.0; 2];
+        if let Some(text) = &self.avoid {
+            let parts: Vec<&str> = text.split(',').map(str::trim).collect();
+            if parts.len() > 2 {
+                return Err(wrong(text));
+            }
+            for (margin, part) in margins.iter_mut().zip(parts) {
+                let value = part.parse::<f64>().ok().filter(|x| (0.0..1.0).contains(x));
+                *margin = value.ok_or_else(|| wrong(text))?;
+            }
+        }
+        let [parallel, serial] = margins;
+        Ok(PlanOptions { weight: self.weight, margins: Margins { parallel, serial } })
+    }
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    format_version: u32,
+    robot: &'a str,
+    #[serde(flatten)]
+    route: Option<&'a Route>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    checks: Vec<PathCheck>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    refusal: Option<Refused>,
+}
+
+#[derive(Serialize)]
+struct Refused {
+    reason: String,
+    /// Whether it is proved that there is no such motion.
+    proved: bool,
+}
+
+/// Prints a route, checked once more, or why there is none.
+///
+/// # Errors
+/// [`Failure::Input`] if what was asked for is no question about this robot.
+pub fn print(
+    out: &mut dyn Write,
+    robot: &Robot,
+    result: &Result<Route, NoRoute>,
+    shown: ShownArgs,
+) -> Result<Answer, Failure> {
+    let (format, name) = (shown.format(), &robot.name);
+    let mut document = Document {
+        format_version: FORMAT_VERSION,
+        robot: name,
+        route: None,
+        checks: Vec::new(),
+        refusal: None,
+    };
+    match result {
+        Err(refusal) if refusal.is_bad_input() => Err(Failure::Input(refusal.to_string())),
+        Err(refusal) => {
+            match format {
+                Format::Json => {
+                    let (reason, proved) = (refusal.to_string(), refusal.is_proof());
+                    json(out, &Document { refusal: Some(Refused { reason, proved }), ..document })?;
+                }
+                Format::Csv => note(&format!("{name}: {refusal}")),
+                Format::Table => writeln!(out, "{name}: {refusal}")?,
+            }
+            Ok(Answer::No)
+        }
+        Ok(route) => {
+            let checks = checks(robot, route)?;
+            match format {
+                Format::Json => {
+                    (document.route, document.checks) = (Some(route), checks);
+                    json(out, &document)?;
+                }
+                Format::Csv => print_csv(out, robot, route)?,
+                Format::Table => print_route(out, robot, route, &checks, shown.deg)?,
+            }
+            Ok(Answer::Yes)
+        }
+    }
+}
+
+/// The stretches of a route as they are driven: each with the way to its crossing and back.
+fn driven(route: &Route) -> Vec<(WorkingMode, Vec<Vec<f64>>)> {
+    let mut all = Vec::new();
+    for (k, stretch) in route.stretches.iter().enumerate() {
+        let before = k.checked_sub(1).map(|k| route.crossings[k].pose.clone());
+        let after = route.crossings.get(k).map(|crossing| crossing.pose.clone());
+        let poses = before.into_iter().chain(stretch.waypoints.iter().cloned()).chain(after);
+        all.push((stretch.mode, poses.collect()));
+    }
+    all
+}
+
+/// The check of each stretch of a route, which knows nothing of how it was planned.
+fn checks(robot: &Robot, route: &Route) -> Result<Vec<PathCheck>, Failure> {
+    route.stretches.iter().map(|s| Ok(check_path(robot, &s.waypoints, s.mode)?)).collect()
+}
+
+/// The waypoints, their modes and what is proved.
+fn print_route(
+    out: &mut dyn Write,
+    robot: &Robot,
+    route: &Route,
+    checks: &[PathCheck],
+    degrees: bool,
+) -> Result<(), Failure> {
+    let labels = Labels::pose(robot, degrees);
+    let headings = labels.headings().map(|name| (name, Align::Right));
+    let mut table = Table::new(
+        [("mode".to_owned(), Align::Left)].into_iter().chain(headings).chain([(String::new(), Align::Left)]),
+    );
+    for (k, (mode, poses)) in driven(route).iter().enumerate() {
+        for (i, pose) in poses.iter().enumerate() {
+            let crossing = if i + 1 == poses.len() { route.crossings.get(k) } else { None };
+            let note = crossing.map_or(String::new(), |c| {
+                format!(
+                    "leg {} through its serial singularity, to mode {}",
+                    c.leg,
+                    c.modes[usize::from(c.modes[0] == *mode)]
+                )
+            });
+            table.row([mode.to_string()].into_iter().chain(labels.numbers(pose)).chain([note]));
+        }
+    }
+    write!(out, "{table}")?;
+    let length: f64 = route.stretches.iter().map(|s| s.length).sum();
+    writeln!(
+        out,
+        "length            {} {} (angles times the characteristic length)",
+        brief(length),
+        robot.length_unit
+    )?;
+    let proved = checks.iter().all(|c| c.singularity_free == Some(true) && c.within_limits == Some(true));
+    let word = if proved { "yes, certified, limits included" } else { "not proved" };
+    writeln!(out, "singularity-free  {word}")?;
+    if let Some(least) = checks.iter().map(|c| &c.min_abs_det_a).min_by(|a, b| a.value.total_cmp(&b.value)) {
+        writeln!(out, "min |det A|       {}{}", number(least.value), super::queries::det_a_unit(robot))?;
+        writeln!(out, "                  at {}", labels.sentence(&least.pose))?;
+    }
+    for crossing in &route.crossings {
+        writeln!(
+            out,
+            "crossing          leg {} stretched or folded at {}; clearance of all else {}, certified",
+            crossing.leg,
+            labels.sentence(&crossing.pose),
+            brief(crossing.clearance)
+        )?;
+    }
+    Ok(())
+}
+
+/// The waypoints as CSV: the mode, then the pose; where the mode changes, the crossing comes twice.
+fn print_csv(out: &mut dyn Write, robot: &Robot, route: &Route) -> Result<(), Failure> {
+    let mut csv = csv::Writer::from_writer(out);
+    let names = crate::input::Columns::pose(robot).names;
+    csv.write_record(["mode".to_owned()].into_iter().chain(names))?;
+    for (mode, poses) in driven(route) {
+        for pose in poses {
+            csv.write_record([mode.to_string()].into_iter().chain(pose.iter().map(|x| exact(*x))))?;
+        }
+    }
+    csv.flush()?;
+    Ok(())
+}

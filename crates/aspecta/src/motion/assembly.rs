@@ -1,0 +1,222 @@
+//! Assembly modes: the poses of one joint vector, by the aspects they lie in, and what a motion from one to another goes round
+//! (section 4.1.5 of the paper).
+//!
+//! Two direct solutions in one aspect can be changed into each other without meeting a singularity; two whose det A differs in sign
+//! cannot, within a working mode.
+
+use super::plan::Plan;
+use super::plan::refusal::aspect_at;
+use crate::aspect::{Analysis, DetSign};
+use crate::domain::cusps::{Cusp, CuspError, Options, cusps};
+use crate::kinematics::{KinematicsError, Solution};
+use crate::num::without_turns;
+use crate::paving::Control;
+use crate::robot::Robot;
+use serde::Serialize;
+
+/// The direct solutions of a joint vector.
+#[derive(Clone, Debug, Serialize)]
+pub struct AssemblyModes {
+    /// The joint vector.
+    pub q: Vec<f64>,
+    /// Whether it is proved that these are all.
+    pub complete: bool,
+    /// The solutions, in the order of [`Robot::direct`].
+    pub solutions: Vec<AssemblyMode>,
+    /// The aspects that hold more than one of them: between those a change without a singularity exists.
+    pub shared: Vec<SharedAspect>,
+}
+
+/// One direct solution.
+#[derive(Clone, Debug, Serialize)]
+pub struct AssemblyMode {
+    /// Its number, from 1.
+    pub number: usize,
+    /// Pose, working mode, det A.
+    #[serde(flatten)]
+    pub solution: Solution,
+    /// The [`crate::aspect::Aspect::id`] (certified); `None` if it is singular, beyond a limit or too near to either to tell.
+    pub aspect: Option<usize>,
+}
+
+/// An aspect with several solutions.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct SharedAspect {
+    /// The [`crate::aspect::Aspect::id`].
+    pub aspect: usize,
+    /// [`AssemblyMode::number`]s.
+    pub solutions: Vec<usize>,
+}
+
+/// The direct solutions of `q`, by aspect. Modes that were not analysed have none.
+///
+/// # Errors
+/// [`KinematicsError`] if `q` does not fit the robot or its direct problem cannot be solved.
+pub fn assembly_modes(analysis: &Analysis, q: &[f64]) -> Result<AssemblyModes, KinematicsError> {
+    let found = analysis.robot.direct_certified(q)?;
+    let complete = found.complete;
+    let mode = |(k, solution): (usize, Solution)| {
+        let sign = if solution.det_a > 0.0 { DetSign::Positive } else { DetSign::Negative };
+        let class = analysis.class_of(solution.mode, sign).filter(|_| solution.within_limits);
+        let aspect = class.and_then(|class| aspect_at(analysis, class, &solution.pose));
+        AssemblyMode { number: k + 1, solution, aspect }
+    };
+    let solutions: Vec<AssemblyMode> = found.solutions.into_iter().enumerate().map(mode).collect();
+    let mut shared: Vec<SharedAspect> = Vec::new();
+    for (aspect, number) in solutions.iter().filter_map(|s| Some((s.aspect?, s.number))) {
+        match shared.iter_mut().find(|s| s.aspect == aspect) {
+            Some(entry) => entry.solutions.push(number),
+            None => shared.push(SharedAspect { aspect, solutions: vec![number] }),
+        }
+    }
+    shared.retain(|s| s.solutions.len() > 1);
+    Ok(AssemblyModes { q: q.to_vec(), complete, solutions, shared })
+}
+
+/// A place of a motion where the number of direct solutions changes: elsewhere, two poses of the same joint vector meet at a parallel
+/// singularity and vanish, or appear. Numerical.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Fold {
+    /// How far along the path, in [0, 1] of its length.
+    pub at: f64,
+    /// The joint vector there.
+    pub q: Vec<f64>,
+    /// Direct solutions before and after.
+    pub solutions: (usize, usize),
+    /// The pose at which two of them meet.
+    pub meeting: Vec<f64>,
+}
+
+/// A cusp that a closed motion of the joints goes round.
+#[derive(Clone, Debug, Serialize)]
+pub struct CuspRound {
+    /// The joint held to find it (from 1), at its mean along the motion.
+    pub held: usize,
+    /// The cusp (certified) in that slice of the joint space.
+    pub cusp: Cusp,
+    /// How often the motion, projected onto the slice, goes round it (counter-clockwise).
+    pub turns: i32,
+}
+
+/// Samples of a motion.
+const SAMPLES: usize = 400;
+
+/// A motion, sampled: how far along, and the joint vector, without jumps.
+fn joint_path(robot: &Robot, plan: &Plan) -> Vec<(f64, Vec<f64>)> {
+    let segments = plan.waypoints.len().saturating_sub(1);
+    let mut path: Vec<(f64, Vec<f64>)> = Vec::new();
+    for i in 0..=SAMPLES {
+        let along = segments as f64 * i as f64 / SAMPLES as f64;
+        if let Some(mut q) = joints_at(robot, plan, along) {
+            if let Some((_, last)) = path.last() {
+                q.iter_mut()
+                    .zip(last)
+                    .zip(&robot.legs)
+                    .filter(|(_, leg)| leg.actuator.is_angle())
+                    .for_each(|((q, last), _)| *q = last + without_turns(*q - last));
+            }
+            path.push((along / segments.max(1) as f64, q));
+        }
+    }
+    path
+}
+
+/// The joint vector `along` segments from the start.
+fn joints_at(robot: &Robot, plan: &Plan, along: f64) -> Option<Vec<f64>> {
+    let k = (along as usize).min(plan.waypoints.len().checked_sub(2)?);
+    let (a, b, t) = (&plan.waypoints[k], &plan.waypoints[k + 1], along - k as f64);
+    let pose: Vec<f64> = a.iter().zip(b).map(|(a, b)| a + t * (b - a)).collect();
+    robot.inverse_in(&pose, plan.mode).ok().flatten()
+}
+
+/// Where the number of direct solutions changes along a motion.
+pub fn folds(robot: &Robot, plan: &Plan) -> Vec<Fold> {
+    let path = joint_path(robot, plan);
+    let poses = |q: &[f64]| robot.direct_poses(q).map(|p| p.iter().map(<[f64]>::to_vec).collect::<Vec<_>>());
+    let count = |q: &[f64]| poses(q).map(|p| p.len());
+    let mut found = Vec::new();
+    for ends in path.windows(2) {
+        let (Ok(before), Ok(after)) = (count(&ends[0].1), count(&ends[1].1)) else { continue };
+        if before == after {
+            continue;
+        }
+        let at =
+            |t: f64| -> Vec<f64> { ends[0].1.iter().zip(&ends[1].1).map(|(a, b)| a + t * (b - a)).collect() };
+        let (mut lo, mut hi) = (0.0, 1.0);
+        for _ in 0..40 {
+            let middle = 0.5 * (lo + hi);
+            if count(&at(middle)).is_ok_and(|n| n == before) { lo = middle } else { hi = middle }
+        }
+        // On the side where there are more, the two that meet are next to each other.
+        let q = at(if before > after { lo } else { hi });
+        let Some(meeting) = poses(&q).ok().and_then(|poses| nearest_pair(robot, &poses)) else { continue };
+        let along = ends[0].0 + lo * (ends[1].0 - ends[0].0);
+        found.push(Fold { at: along, q, solutions: (before, after), meeting });
+    }
+    found
+}
+
+/// The middle of the two poses that are nearest to each other.
+fn nearest_pair(robot: &Robot, poses: &[Vec<f64>]) -> Option<Vec<f64>> {
+    let coordinates = robot.platform.coordinates();
+    let length = robot.characteristic_length();
+    let gap = |a: &[f64], b: &[f64]| -> Vec<f64> {
+        let gap = |k: usize| if coordinates[k].angle { without_turns(b[k] - a[k]) } else { b[k] - a[k] };
+        (0..a.len()).map(gap).collect()
+    };
+    let distance = |a: &[f64], b: &[f64]| -> f64 {
+        let scaled = gap(a, b).into_iter().zip(coordinates);
+        scaled.map(|(g, c)| (if c.angle { g * length } else { g }).powi(2)).sum()
+    };
+    let pairs = (0..poses.len()).flat_map(|i| (i + 1..poses.len()).map(move |j| (i, j)));
+    let (i, j) = pairs
+        .min_by(|a, b| distance(&poses[a.0], &poses[a.1]).total_cmp(&distance(&poses[b.0], &poses[b.1])))?;
+    Some(poses[i].iter().zip(gap(&poses[i], &poses[j])).map(|(a, g)| a + 0.5 * g).collect())
+}
+
+/// The cusps that a motion of a robot with three degrees of freedom goes round, if it begins and ends at one joint vector: in the slice of
+/// the joint space in which the joint that varies least is held at its mean. Cusps are certified; going round them is counted on
+/// the projection of the joint path, numerically.
+///
+/// # Errors
+/// [`CuspError`].
+pub fn cusps_round(robot: &Robot, plan: &Plan, control: &Control<'_>) -> Result<Vec<CuspRound>, CuspError> {
+    let path = joint_path(robot, plan);
+    let range = |j: usize| {
+        let values = path.iter().map(|(_, q)| q[j]);
+        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), x| (lo.min(x), hi.max(x)))
+    };
+    let width = |j: &usize| range(*j).1 - range(*j).0;
+    let Some(held) = (0..robot.dof()).min_by(|a, b| width(a).total_cmp(&width(b))) else {
+        return Ok(Vec::new());
+    };
+    let mean = 0.5 * (range(held).0 + range(held).1);
+    let options = Options { fix: vec![(held, mean)], mode: Some(plan.mode), boxes: None };
+    let others: Vec<usize> = (0..robot.dof()).filter(|&j| j != held).collect();
+    let &[a, b] = &others[..] else { return Ok(Vec::new()) };
+    let round = |cusp: Cusp| {
+        let turns = winding(path.iter().map(|(_, q)| [q[a] - cusp.q[a], q[b] - cusp.q[b]]));
+        (turns != 0).then_some(CuspRound { held: held + 1, cusp, turns })
+    };
+    Ok(cusps(robot, &options, control)?.cusps.into_iter().filter_map(round).collect())
+}
+
+/// How often a closed polygon goes round the origin.
+fn winding(points: impl Iterator<Item = [f64; 2]>) -> i32 {
+    let angles: Vec<f64> = points.map(|[x, y]| y.atan2(x)).collect();
+    let turned: f64 = angles.windows(2).map(|ends| without_turns(ends[1] - ends[0])).sum();
+    (turned / std::f64::consts::TAU).round() as i32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::winding;
+
+    #[test]
+    fn turns_are_counted_with_their_sign() {
+        let square = [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0], [1.0, 1.0]];
+        assert_eq!(winding(square.into_iter()), 1);
+        assert_eq!(winding(square.into_iter().rev()), -1);
+        assert_eq!(winding(square.into_iter().map(|[x, y]| [x + 2.0, y])), 0);
+    }
+}

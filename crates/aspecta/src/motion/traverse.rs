@@ -1,0 +1,257 @@
+//! Traversability (parcourabilité): which aspects hold a whole set of poses.
+//!
+//! A connected set that lies in one W-aspect can be traversed along any continuous path in it, in that working mode, without a
+//! singularity. For a set of separate poses the same aspect lets the robot go from any of them to any other, on a path that may
+//! leave the set. With changes of working mode it is enough that each pose lies in some aspect of one group of [`ModeGraph::groups`].
+
+use super::modes::ModeGraph;
+use super::plan::refusal::aspect_at;
+use super::plan::{in_window, is_in};
+use crate::aspect::{Analysis, DetSign};
+use crate::kinematics::demand::{Demand, demands};
+use crate::kinematics::modal::Constraint;
+use crate::kinematics::path::{Along, Curve, along};
+use crate::kinematics::placement::Placement;
+use crate::kinematics::{KinematicsError, WorkingMode, for_platform};
+use crate::num::{Interval, Scalar, Slope};
+use crate::robot::Robot;
+use serde::Serialize;
+
+/// Interval evaluations spent on a box, in each class.
+const BOX_EFFORT: usize = 50_000;
+/// And on a segment of a path.
+const SEGMENT_EFFORT: usize = 50_000;
+
+/// A set of poses; angles in rad, modulo 2π where the set is a list.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum PoseSet {
+    /// All poses with every coordinate in its range.
+    Box(Vec<(f64, f64)>),
+    /// Separate poses.
+    Poses(Vec<Vec<f64>>),
+    /// Polylines: every path through its poses by straight segments.
+    Paths(Vec<Vec<Vec<f64>>>),
+}
+
+/// Whether a class holds the whole set.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case", tag = "answer")]
+pub enum Holds {
+    /// All of it lies in one aspect (certified).
+    Whole {
+        /// The [`crate::aspect::Aspect::id`]; `None` if the set is proved to lie in one, but which is not known.
+        aspect: Option<usize>,
+    },
+    /// It does not (certified): this pose of the set lies outside the class, or in another aspect of it than another pose of the set.
+    NotWhole {
+        /// The pose.
+        pose: Vec<f64>,
+        /// What fails there; `None` if it lies in another aspect, or beyond the window that the robot file sets.
+        constraint: Option<Constraint>,
+    },
+    /// Neither could be proved.
+    Undecided {
+        /// A pose of the set that is in doubt.
+        pose: Vec<f64>,
+    },
+}
+
+/// What one class is to a set.
+#[derive(Clone, Debug, Serialize)]
+pub struct ClassHolds {
+    /// The working mode.
+    pub mode: WorkingMode,
+    /// The sign of det A.
+    pub det_a: DetSign,
+    /// Whether it holds the set.
+    #[serde(flatten)]
+    pub holds: Holds,
+}
+
+/// Where a set can be traversed.
+#[derive(Clone, Debug, Serialize)]
+pub struct Traversability {
+    /// The set.
+    pub set: PoseSet,
+    /// Class by class.
+    pub classes: Vec<ClassHolds>,
+    /// For separate poses, with changes of working mode: the groups of linked aspects ([`ModeGraph::groups`]) of which every pose lies in at
+    /// least one. Certified as far as the groups are. Empty for boxes and paths.
+    pub groups: Vec<Vec<usize>>,
+}
+
+/// Which aspects hold a set, and, if there is a graph, which groups of aspects.
+///
+/// # Errors
+/// [`KinematicsError`] if a pose does not fit the robot.
+pub fn traversability(
+    analysis: &Analysis,
+    graph: Option<&ModeGraph>,
+    set: PoseSet,
+) -> Result<Traversability, KinematicsError> {
+    for pose in set.corners() {
+        analysis.robot.check_pose(&pose)?;
+    }
+    let verdict = |k: usize| {
+        let class = &analysis.classes[k];
+        ClassHolds { mode: class.mode, det_a: class.det_a, holds: holds(analysis, k, &set) }
+    };
+    let classes = (0..analysis.classes.len()).map(verdict).collect();
+    let groups = match (&set, graph) {
+        (PoseSet::Poses(poses), Some(graph)) => linked(analysis, graph, poses),
+        _ => Vec::new(),
+    };
+    Ok(Traversability { set, classes, groups })
+}
+
+impl PoseSet {
+    /// Poses that are numbers only if the set is.
+    fn corners(&self) -> Vec<Vec<f64>> {
+        match self {
+            Self::Box(ranges) => {
+                vec![ranges.iter().map(|r| r.0).collect(), ranges.iter().map(|r| r.1).collect()]
+            }
+            Self::Poses(poses) => poses.clone(),
+            Self::Paths(paths) => paths.concat(),
+        }
+    }
+}
+
+fn holds(analysis: &Analysis, class: usize, set: &PoseSet) -> Holds {
+    let entry = &analysis.classes[class];
+    let demand = Demand::class(entry.mode, entry.det_a.factor());
+    let robot = &analysis.robot;
+    let is_free = |pose: &Vec<f64>| is_in(&analysis.window, &in_window(&analysis.window, pose));
+    if robot.window.iter().any(Option::is_some)
+        && let Some(pose) = set.corners().into_iter().find(|pose| !is_free(pose))
+    {
+        return Holds::NotWhole { pose, constraint: None };
+    }
+    match set {
+        PoseSet::Box(ranges) => {
+            let whole = for_platform!(robot.platform, over_box(robot, &demand, ranges));
+            whole.unwrap_or_else(|| {
+                let centre: Vec<f64> = ranges.iter().map(|r| 0.5 * (r.0 + r.1)).collect();
+                Holds::Whole { aspect: aspect_at(analysis, class, &centre) }
+            })
+        }
+        PoseSet::Poses(poses) => {
+            let paths: Vec<Vec<Vec<f64>>> = poses.iter().map(|pose| vec![pose.clone()]).collect();
+            over_paths(analysis, class, &demand, &paths)
+        }
+        PoseSet::Paths(paths) => over_paths(analysis, class, &demand, paths),
+    }
+}
+
+/// Every path proved to stay in the class, and all in one aspect.
+fn over_paths(analysis: &Analysis, class: usize, demand: &Demand, paths: &[Vec<Vec<f64>>]) -> Holds {
+    let mut common: Option<Option<usize>> = None;
+    for path in paths.iter().filter(|path| !path.is_empty()) {
+        // A path of one pose is a segment that stands still.
+        for k in 0..path.len().saturating_sub(1).max(1) {
+            let (start, end) = (&path[k], &path[(k + 1).min(path.len() - 1)]);
+            let middle = |from: f64, to: f64| -> Vec<f64> {
+                start.iter().zip(end).map(|(a, b)| a + 0.5 * (from + to) * (b - a)).collect()
+            };
+            match along(&analysis.robot, demand, &Curve::segment(start, end), SEGMENT_EFFORT) {
+                Along::Inside | Along::Crossed { .. } => {}
+                Along::Outside { constraint, from, to } => {
+                    return Holds::NotWhole { pose: middle(from, to), constraint: Some(constraint) };
+                }
+                Along::Undecided { from, to, .. } => return Holds::Undecided { pose: middle(from, to) },
+            }
+        }
+        let aspect = aspect_at(analysis, class, &path[0]);
+        match (common, aspect) {
+            (None, _) => common = Some(aspect),
+            (Some(Some(a)), Some(b)) if a != b => {
+                return Holds::NotWhole { pose: path[0].clone(), constraint: None };
+            }
+            (Some(Some(_)), Some(_)) => {}
+            // Not known to be one aspect.
+            _ => return Holds::Undecided { pose: path[0].clone() },
+        }
+    }
+    Holds::Whole { aspect: common.flatten() }
+}
+
+/// `None` if the box is proved to lie in the class: by bisection, all constraints > 0 on every part. A box is connected, so it lies in one
+/// aspect then.
+fn over_box<const D: usize, const N: usize>(
+    robot: &Robot,
+    demand: &Demand,
+    ranges: &[(f64, f64)],
+) -> Option<Holds> {
+    let whole: [Interval; N] = std::array::from_fn(|k| Interval::new(ranges[k].0, ranges[k].1));
+    let mut open = vec![whole];
+    let mut spent = 0;
+    while let Some(part) = open.pop() {
+        spent += 1;
+        let centre: Vec<f64> = part.iter().map(|x| x.mid()).collect();
+        match over_part::<D, N>(robot, demand, &part) {
+            Part::Inside => {}
+            Part::Outside(constraint) => {
+                return Some(Holds::NotWhole { pose: centre, constraint: Some(constraint) });
+            }
+            Part::Open if spent >= BOX_EFFORT => return Some(Holds::Undecided { pose: centre }),
+            Part::Open => {
+                // Across the side that is longest by the box asked about; the part that may fail is looked at first.
+                let share = |k: &usize| part[*k].width() / whole[*k].width().max(f64::MIN_POSITIVE);
+                let k = (0..N).max_by(|a, b| share(a).total_cmp(&share(b)))?;
+                if part[k].lo == part[k].hi {
+                    return Some(Holds::Undecided { pose: centre });
+                }
+                let middle = part[k].mid();
+                let (mut low, mut high) = (part, part);
+                low[k] = Interval::new(part[k].lo, middle);
+                high[k] = Interval::new(middle, part[k].hi);
+                open.extend([high, low]);
+            }
+        }
+    }
+    None
+}
+
+enum Part {
+    Inside,
+    Outside(Constraint),
+    Open,
+}
+
+fn over_part<const D: usize, const N: usize>(robot: &Robot, demand: &Demand, part: &[Interval; N]) -> Part {
+    let x: [Slope<Interval, N>; N] = std::array::from_fn(|k| {
+        let middle = Interval::point(part[k].mid());
+        let radius = Interval::point((part[k] - middle).magnitude());
+        Slope::variable(part[k], middle, radius, k)
+    });
+    let mut result = Part::Inside;
+    demands::<_, D, N>(robot, &Placement::at(robot.platform, &x), demand, |constraint, value| {
+        let value = value.tightened().range;
+        if value.is_negative() {
+            result = Part::Outside(constraint);
+            return false;
+        }
+        if !value.is_positive() {
+            result = Part::Open;
+        }
+        true
+    });
+    result
+}
+
+/// The groups of which every pose lies in at least one aspect.
+fn linked(analysis: &Analysis, graph: &ModeGraph, poses: &[Vec<f64>]) -> Vec<Vec<usize>> {
+    let aspects_of = |pose: &Vec<f64>| -> Vec<usize> {
+        let of = |k: usize| {
+            let class = &analysis.classes[k];
+            let demand = Demand::class(class.mode, class.det_a.factor());
+            let inside = Along::is_inside(&analysis.robot, &demand, [pose, pose], 1);
+            inside.then(|| aspect_at(analysis, k, pose)).flatten()
+        };
+        (0..analysis.classes.len()).filter_map(of).collect()
+    };
+    let all: Vec<Vec<usize>> = poses.iter().map(aspects_of).collect();
+    let holds = |group: &&Vec<usize>| all.iter().all(|of| of.iter().any(|id| group.contains(id)));
+    graph.groups.iter().filter(holds).cloned().collect()
+}
