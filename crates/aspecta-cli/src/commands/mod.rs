@@ -17,6 +17,7 @@ mod follow;
 mod ik;
 mod locate;
 mod mapping;
+mod modes;
 mod places;
 mod plan;
 mod planning;
@@ -30,6 +31,7 @@ mod start;
 mod state;
 mod summary;
 mod target;
+mod traverse;
 mod verify;
 mod watch;
 
@@ -62,6 +64,10 @@ pub enum Command {
     Plan(plan::Plan),
     /// The poses of a joint vector by aspects, and how to change from one to another without a singularity
     Assembly(assembly::Assembly),
+    /// Which aspects are joined by legs that change their postures: the graph of working-mode changes
+    Modes(modes::Modes),
+    /// Which aspects and uniqueness domains hold a whole set of poses: a box, a list, paths
+    Traverse(traverse::Traverse),
     /// Follow one solution along a stream of joint vectors (or poses), every step certified, as it comes
     Follow(follow::Follow),
     /// The robot as a file for another program
@@ -91,6 +97,8 @@ impl Command {
             Self::CheckPath(command) => command.run(out),
             Self::Plan(command) => command.run(out),
             Self::Assembly(command) => command.run(out),
+            Self::Modes(command) => command.run(out),
+            Self::Traverse(command) => command.run(out),
             Self::Follow(command) => command.run(out),
             Self::Export(command) => command.run(out),
             Self::Robots(command) => command.run(out),

@@ -7,6 +7,7 @@ pub mod axes;
 pub mod barrier;
 pub mod components;
 pub mod curves;
+pub mod graph;
 mod hues;
 pub mod image;
 pub mod joints;

@@ -132,8 +132,7 @@ fn joints_at(robot: &Robot, plan: &Plan, along: f64) -> Option<Vec<f64>> {
 /// Where the number of direct solutions changes along a motion.
 pub fn folds(robot: &Robot, plan: &Plan) -> Vec<Fold> {
     let path = joint_path(robot, plan);
-    let poses = |q: &[f64]| robot.direct_poses(q).map(|p| p.iter().map(<[f64]>::to_vec).collect::<Vec<_>>());
-    let count = |q: &[f64]| poses(q).map(|p| p.len());
+    let count = |q: &[f64]| robot.direct_poses(q).map(|poses| poses.len());
     let mut found = Vec::new();
     for ends in path.windows(2) {
         let (Ok(before), Ok(after)) = (count(&ends[0].1), count(&ends[1].1)) else { continue };
@@ -147,31 +146,19 @@ pub fn folds(robot: &Robot, plan: &Plan) -> Vec<Fold> {
             let middle = 0.5 * (lo + hi);
             if count(&at(middle)).is_ok_and(|n| n == before) { lo = middle } else { hi = middle }
         }
-        // On the side where there are more, the two that meet are next to each other.
+        // On the side where there are more, those that meet are there, hardly apart.
         let q = at(if before > after { lo } else { hi });
-        let Some(meeting) = poses(&q).ok().and_then(|poses| nearest_pair(robot, &poses)) else { continue };
+        let Some(meeting) = most_singular(robot, &q) else { continue };
         let along = ends[0].0 + lo * (ends[1].0 - ends[0].0);
         found.push(Fold { at: along, q, solutions: (before, after), meeting });
     }
     found
 }
 
-/// The middle of the two poses that are nearest to each other.
-fn nearest_pair(robot: &Robot, poses: &[Vec<f64>]) -> Option<Vec<f64>> {
-    let coordinates = robot.platform.coordinates();
-    let length = robot.characteristic_length();
-    let gap = |a: &[f64], b: &[f64]| -> Vec<f64> {
-        let gap = |k: usize| if coordinates[k].angle { without_turns(b[k] - a[k]) } else { b[k] - a[k] };
-        (0..a.len()).map(gap).collect()
-    };
-    let distance = |a: &[f64], b: &[f64]| -> f64 {
-        let scaled = gap(a, b).into_iter().zip(coordinates);
-        scaled.map(|(g, c)| (if c.angle { g * length } else { g }).powi(2)).sum()
-    };
-    let pairs = (0..poses.len()).flat_map(|i| (i + 1..poses.len()).map(move |j| (i, j)));
-    let (i, j) = pairs
-        .min_by(|a, b| distance(&poses[a.0], &poses[a.1]).total_cmp(&distance(&poses[b.0], &poses[b.1])))?;
-    Some(poses[i].iter().zip(gap(&poses[i], &poses[j])).map(|(a, g)| a + 0.5 * g).collect())
+/// The direct solution with the least |det A|.
+fn most_singular(robot: &Robot, q: &[f64]) -> Option<Vec<f64>> {
+    let solutions = robot.direct(q).ok()?;
+    solutions.into_iter().min_by(|a, b| a.det_a.abs().total_cmp(&b.det_a.abs())).map(|s| s.pose)
 }
 
 /// The cusps that a motion of a robot with three degrees of freedom goes round, if it begins and ends at one joint vector: in the slice of

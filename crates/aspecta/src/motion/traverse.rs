@@ -16,6 +16,7 @@ use crate::kinematics::{KinematicsError, WorkingMode, for_platform};
 use crate::num::{Interval, Scalar, Slope};
 use crate::robot::Robot;
 use serde::Serialize;
+use std::collections::VecDeque;
 
 /// Interval evaluations spent on a box, in each class.
 const BOX_EFFORT: usize = 50_000;
@@ -43,7 +44,8 @@ pub enum Holds {
         /// The [`crate::aspect::Aspect::id`]; `None` if the set is proved to lie in one, but which is not known.
         aspect: Option<usize>,
     },
-    /// It does not (certified): this pose of the set lies outside the class, or in another aspect of it than another pose of the set.
+    /// It does not (certified): a pose of the set lies outside the class, or in another aspect of it than another pose of the set: this one, or
+    /// on a path one next to it.
     NotWhole {
         /// The pose.
         pose: Vec<f64>,
@@ -184,9 +186,10 @@ fn over_box<const D: usize, const N: usize>(
     ranges: &[(f64, f64)],
 ) -> Option<Holds> {
     let whole: [Interval; N] = std::array::from_fn(|k| Interval::new(ranges[k].0, ranges[k].1));
-    let mut open = vec![whole];
+    // The largest parts first: one that fails as a whole ends it.
+    let mut open = VecDeque::from([whole]);
     let mut spent = 0;
-    while let Some(part) = open.pop() {
+    while let Some(part) = open.pop_front() {
         spent += 1;
         let centre: Vec<f64> = part.iter().map(|x| x.mid()).collect();
         match over_part::<D, N>(robot, demand, &part) {
@@ -196,7 +199,7 @@ fn over_box<const D: usize, const N: usize>(
             }
             Part::Open if spent >= BOX_EFFORT => return Some(Holds::Undecided { pose: centre }),
             Part::Open => {
-                // Across the side that is longest by the box asked about; the part that may fail is looked at first.
+                // Across the side that is longest by the box asked about.
                 let share = |k: &usize| part[*k].width() / whole[*k].width().max(f64::MIN_POSITIVE);
                 let k = (0..N).max_by(|a, b| share(a).total_cmp(&share(b)))?;
                 if part[k].lo == part[k].hi {
@@ -206,7 +209,7 @@ fn over_box<const D: usize, const N: usize>(
                 let (mut low, mut high) = (part, part);
                 low[k] = Interval::new(part[k].lo, middle);
                 high[k] = Interval::new(middle, part[k].hi);
-                open.extend([high, low]);
+                open.extend([low, high]);
             }
         }
     }

@@ -1,0 +1,114 @@
+//! `aspecta modes`: which aspects a robot can go between by changing the postures of its legs.
+
+use super::planning::Analysing;
+use super::queries::Labels;
+use crate::failure::{Answer, Failure};
+use crate::input;
+use crate::output::{Align, FORMAT_VERSION, Table, brief, json};
+use aspecta::motion::modes::ModeGraph;
+use aspecta::robot::Robot;
+use aspecta_cli::figure::graph::mode_graph;
+use aspecta_cli::file;
+use clap::Args;
+use serde::Serialize;
+use std::io::Write;
+use std::path::PathBuf;
+
+/// Arguments of `modes`.
+///
+/// A leg changes its posture in its serial singularity (B_jj = 0). As long as det A ≠ 0 there, the robot stays under control, and the
+/// aspects of two working modes become one larger domain of motion.
+#[derive(Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Modes {
+    /// Name from `aspecta robots`, or path of a robot file
+    robot: String,
+    /// Draw the graph: modes.svg in this directory
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    analysing: Analysing,
+    /// Angles of the tables are in degrees
+    #[arg(long)]
+    deg: bool,
+    /// Print JSON, and nothing else, on stdout (angles in radians)
+    #[arg(long)]
+    json: bool,
+}
+
+const EXAMPLES: &str = "\
+Example: aspecta modes five-bar
+A crossing is proved by intervals: det A keeps its sign while the leg goes through its serial singularity. Aspects of different signs of
+det A are never joined, which is proved too; that there are no other crossings is not.
+Exit status: 0 done; 2 bad input.";
+
+#[derive(Serialize)]
+struct Document<'a> {
+    format_version: u32,
+    robot: &'a str,
+    #[serde(flatten)]
+    graph: &'a ModeGraph,
+}
+
+impl Modes {
+    pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
+        let robot = input::robot(&self.robot)?;
+        if let Some(directory) = &self.out {
+            file::writable(directory).map_err(Failure::in_directory(directory))?;
+        }
+        let graph = self.analysing.with(&robot, &[], |analysis, _| Ok(ModeGraph::new(analysis)))?;
+        if self.json {
+            json(out, &Document { format_version: FORMAT_VERSION, robot: &robot.name, graph: &graph })?;
+        } else {
+            print(out, &robot, &graph, self.deg)?;
+        }
+        if let Some(directory) = &self.out {
+            let drawn = file::put(directory, "modes.svg", mode_graph(&robot, &graph));
+            let path = drawn.map_err(Failure::in_directory(directory))?;
+            let written = format!("figure: {}", path.display());
+            if self.json { crate::output::note(&written) } else { writeln!(out, "{written}")? }
+        }
+        Ok(Answer::Yes)
+    }
+}
+
+fn print(out: &mut dyn Write, robot: &Robot, graph: &ModeGraph, degrees: bool) -> Result<(), Failure> {
+    let labels = Labels::pose(robot, degrees);
+    let right = |name: &str| (name.to_owned(), Align::Right);
+    writeln!(
+        out,
+        "{}: {} aspects, {} crossings found, each proved",
+        robot.name,
+        graph.aspects.len(),
+        graph.crossings.len()
+    )?;
+    let headings = labels.headings().map(|name| (name, Align::Right));
+    let first = [right("aspects"), right("modes"), right("det A"), right("leg")];
+    let mut table = Table::new(first.into_iter().chain(headings).chain([right("clearance")]));
+    for c in &graph.crossings {
+        let first = [
+            format!("{} - {}", c.aspects[0], c.aspects[1]),
+            format!("{} {}", c.modes[0], c.modes[1]),
+            c.det_a.to_string(),
+            c.leg.to_string(),
+        ];
+        table.row(first.into_iter().chain(labels.numbers(&c.pose)).chain([brief(c.clearance)]));
+    }
+    write!(out, "{table}")?;
+    writeln!(
+        out,
+        "\nAspects that can be reached from one another without a parallel singularity (certified)"
+    )?;
+    for group in &graph.groups {
+        let name = |id: &usize| {
+            let mode = graph
+                .aspects
+                .iter()
+                .find(|a| a.id == *id)
+                .map(|a| format!(" ({} det A {})", a.mode, a.det_a));
+            format!("{id}{}", mode.unwrap_or_default())
+        };
+        writeln!(out, "  {}", group.iter().map(name).collect::<Vec<_>>().join(", "))?;
+    }
+    Ok(())
+}

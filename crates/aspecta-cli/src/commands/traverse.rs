@@ -1,0 +1,266 @@
+//! `aspecta traverse`: which aspects hold a whole set of poses.
+
+use super::mapping::Source;
+use super::planning::Analysing;
+use super::queries::Labels;
+use crate::failure::{Answer, Failure};
+use crate::input::{self, Columns};
+use crate::output::{Align, FORMAT_VERSION, Table, json};
+use aspecta::domain::Map;
+use aspecta::kinematics::modal::Constraint;
+use aspecta::motion::modes::ModeGraph;
+use aspecta::motion::traverse::{ClassHolds, Holds, PoseSet, Traversability, traversability};
+use aspecta::robot::Robot;
+use clap::Args;
+use serde::Serialize;
+use std::io::Write;
+
+/// Arguments of `traverse`.
+#[derive(Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Traverse {
+    /// Name from `aspecta robots`, or path of a robot file
+    robot: String,
+    #[command(flatten)]
+    set: Set,
+    /// With --poses: also say through which groups of aspects every pose can be reached if legs change their postures
+    #[arg(long, requires = "poses")]
+    through_modes: bool,
+    /// A file written by `aspecta domains --save`: also say which uniqueness domains hold the set (numerical)
+    #[arg(long, value_name = "FILE")]
+    map: Option<String>,
+    #[command(flatten)]
+    analysing: Analysing,
+    /// Angles of the input and of the tables are in degrees
+    #[arg(long)]
+    deg: bool,
+    /// Print JSON, and nothing else, on stdout (angles in radians)
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Args)]
+#[group(required = true, multiple = false)]
+struct Set {
+    /// A box of poses: a range lo:hi (or one value) per coordinate, as in 2:6,8:10 or 0:1,0:1,-0.1:0.1
+    #[arg(long = "box", value_name = "RANGES", allow_hyphen_values = true)]
+    ranges: Option<String>,
+    /// A CSV file of poses to be visited in any order; `-` reads stdin
+    #[arg(long, value_name = "CSV")]
+    poses: Option<String>,
+    /// A CSV file of poses that are a path of straight segments; again for several paths
+    #[arg(long, value_name = "CSV")]
+    path: Vec<String>,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  aspecta traverse five-bar --box 2:6,8:10
+  aspecta traverse five-bar --poses points.csv --through-modes
+A connected set (a box, a path) that one aspect holds can be traversed on any continuous path in it; separate poses that one aspect
+holds can be visited in any order. Answers are certified unless they say otherwise.
+Exit status: 0 some aspect (or, with --through-modes, some group of aspects) holds the set; 1 none, or undecided; 2 bad input.";
+
+#[derive(Serialize)]
+struct Document<'a> {
+    format_version: u32,
+    robot: &'a str,
+    #[serde(flatten)]
+    found: &'a Traversability,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    uniqueness: Option<&'a [InDomain]>,
+}
+
+/// A uniqueness domain that holds the set.
+#[derive(Serialize)]
+struct InDomain {
+    aspect: usize,
+    domain: usize,
+}
+
+impl Traverse {
+    pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
+        let robot = input::robot(&self.robot)?;
+        let set = self.set.read(&robot, self.deg)?;
+        let map = self.map.as_deref().map(|path| read_map(path, &robot)).transpose()?;
+        let found = self.analysing.with(&robot, &[], |analysis, _| {
+            let graph = self.through_modes.then(|| ModeGraph::new(analysis));
+            Ok(traversability(analysis, graph.as_ref(), set)?)
+        })?;
+        let domains = map.as_ref().map(|map| domains_of(map, &found));
+        if self.json {
+            let (format_version, robot) = (FORMAT_VERSION, robot.name.as_str());
+            json(out, &Document { format_version, robot, found: &found, uniqueness: domains.as_deref() })?;
+        } else {
+            print(out, &robot, &found, self.deg)?;
+            if self.through_modes {
+                print_groups(out, &found)?;
+            }
+            if let Some(domains) = &domains {
+                print_domains(out, domains)?;
+            }
+        }
+        let whole = found.classes.iter().any(|class| matches!(class.holds, Holds::Whole { .. }));
+        Ok(Answer::from(whole || !found.groups.is_empty()))
+    }
+}
+
+impl Set {
+    fn read(&self, robot: &Robot, degrees: bool) -> Result<PoseSet, Failure> {
+        let layout = [Columns::pose(robot)];
+        let poses = |path: &String| -> Result<Vec<Vec<f64>>, Failure> {
+            Ok(input::rows(path, &layout, degrees)?.into_iter().map(|row| row.values).collect())
+        };
+        match (&self.ranges, &self.poses) {
+            (Some(text), _) => ranges(robot, text, degrees),
+            (None, Some(path)) => Ok(PoseSet::Poses(poses(path)?)),
+            (None, None) => Ok(PoseSet::Paths(self.path.iter().map(poses).collect::<Result<_, _>>()?)),
+        }
+    }
+}
+
+/// `2:6,8:10`: a range, or a value, per coordinate.
+fn ranges(robot: &Robot, text: &str, degrees: bool) -> Result<PoseSet, Failure> {
+    let columns = Columns::pose(robot);
+    let ends = |upper: bool| -> String {
+        let part = |range: &str| {
+            range.split_once(':').map_or(range, |(lo, hi)| if upper { hi } else { lo }).to_owned()
+        };
+        text.split(',').map(part).collect::<Vec<_>>().join(",")
+    };
+    let [lo, hi] = [
+        input::list("--box", &ends(false), &columns, degrees)?,
+        input::list("--box", &ends(true), &columns, degrees)?,
+    ];
+    if let Some(k) = (0..lo.len()).find(|&k| lo[k] > hi[k]) {
+        return Err(Failure::Input(format!("--box `{text}`: range {} ends before it begins", k + 1)));
+    }
+    Ok(PoseSet::Box(lo.into_iter().zip(hi).collect()))
+}
+
+fn read_map(path: &str, robot: &Robot) -> Result<Map, Failure> {
+    match Source::new(path)? {
+        Source::Map(map) if map.robot == *robot => Ok(*map),
+        Source::Map(map) => Err(Failure::Input(format!(
+            "--map {path}: that is a map of `{}`, or of a `{}` with other figures",
+            map.robot.name, robot.name
+        ))),
+        Source::Robot(_) => {
+            Err(Failure::Input(format!("--map {path}: give a file written by `aspecta domains --save`")))
+        }
+    }
+}
+
+/// The uniqueness domains that hold every pose of the set, or a grid of poses in it.
+fn domains_of(map: &Map, found: &Traversability) -> Vec<InDomain> {
+    let poses = sampled(&found.set);
+    let held = |class: &ClassHolds| {
+        let regions: Option<Vec<(usize, usize)>> = poses
+            .iter()
+            .map(|pose| {
+                let place = map.locate(pose, class.mode).ok().filter(|place| place.det_a == class.det_a)?;
+                Some((place.aspect?, place.region?))
+            })
+            .collect();
+        let mut all: Option<Vec<InDomain>> = None;
+        for (aspect, region) in regions.unwrap_or_default() {
+            let here: Vec<usize> = map.uniqueness(aspect, region).collect();
+            let fresh = || here.iter().map(|&domain| InDomain { aspect, domain }).collect();
+            let mut left = all.take().unwrap_or_else(fresh);
+            left.retain(|held| held.aspect == aspect && here.contains(&held.domain));
+            all = Some(left);
+        }
+        all.unwrap_or_default()
+    };
+    found.classes.iter().filter(|class| matches!(class.holds, Holds::Whole { .. })).flat_map(held).collect()
+}
+
+/// Poses of a set, close together.
+fn sampled(set: &PoseSet) -> Vec<Vec<f64>> {
+    const ACROSS: usize = 24;
+    match set {
+        PoseSet::Poses(poses) => poses.clone(),
+        PoseSet::Paths(paths) => {
+            let between = |ends: &[Vec<f64>]| {
+                let at = |i: usize| {
+                    ends[0].iter().zip(&ends[1]).map(|(a, b)| a + i as f64 / 100.0 * (b - a)).collect()
+                };
+                (0..=100).map(at).collect::<Vec<Vec<f64>>>()
+            };
+            paths.iter().flat_map(|path| path.windows(2).flat_map(between)).collect()
+        }
+        PoseSet::Box(ranges) => {
+            let mut poses = vec![Vec::new()];
+            for (lo, hi) in ranges {
+                let steps = if lo == hi { 0 } else { ACROSS };
+                let along = |i: usize| if i == 0 { *lo } else { lo + (hi - lo) * i as f64 / ACROSS as f64 };
+                poses = poses
+                    .iter()
+                    .flat_map(|pose: &Vec<f64>| (0..=steps).map(move |i| [&pose[..], &[along(i)]].concat()))
+                    .collect();
+            }
+            poses
+        }
+    }
+}
+
+fn print(out: &mut dyn Write, robot: &Robot, found: &Traversability, degrees: bool) -> Result<(), Failure> {
+    let labels = Labels::pose(robot, degrees);
+    let left = |name: &str| (name.to_owned(), Align::Left);
+    let mut table = Table::new([left("mode"), left("det A"), left("holds the set")]);
+    for class in &found.classes {
+        let verdict = match &class.holds {
+            Holds::Whole { aspect: Some(id) } => format!("yes, certified: aspect {id}"),
+            Holds::Whole { aspect: None } => {
+                "yes, certified (one aspect; its number is not known at this resolution)".into()
+            }
+            Holds::NotWhole { pose, constraint } => {
+                format!("no, certified: {}, near {}", what(*constraint), labels.brief(pose))
+            }
+            Holds::Undecided { pose } => format!("undecided, near {}", labels.brief(pose)),
+        };
+        table.row([class.mode.to_string(), class.det_a.to_string(), verdict]);
+    }
+    write!(out, "{table}")?;
+    Ok(())
+}
+
+/// What keeps a pose out.
+fn what(constraint: Option<Constraint>) -> String {
+    match constraint {
+        None => "another aspect, or beyond the robot's window".into(),
+        Some(Constraint::Det) => "the other sign of det A".into(),
+        Some(Constraint::Reach(leg)) => format!("leg {} does not reach", leg + 1),
+        Some(Constraint::Limit(leg, limit)) => format!("limit {} of leg {}", limit + 1, leg + 1),
+    }
+}
+
+fn print_groups(out: &mut dyn Write, found: &Traversability) -> Result<(), Failure> {
+    if found.groups.is_empty() {
+        writeln!(
+            out,
+            "through changes of working mode: no group of linked aspects is known to hold every pose"
+        )?;
+    }
+    for group in &found.groups {
+        let ids = group.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
+        writeln!(
+            out,
+            "through changes of working mode: every pose can be reached within aspects {ids} (certified)"
+        )?;
+    }
+    Ok(())
+}
+
+fn print_domains(out: &mut dyn Write, domains: &[InDomain]) -> Result<(), Failure> {
+    if domains.is_empty() {
+        writeln!(out, "no uniqueness domain of the map holds it (numerical)")?;
+    }
+    for InDomain { aspect, domain } in domains {
+        writeln!(
+            out,
+            "uniqueness domain {domain} of aspect {aspect} holds it (numerical): there a joint vector means one pose"
+        )?;
+    }
+    Ok(())
+}

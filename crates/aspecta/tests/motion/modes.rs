@@ -1,0 +1,125 @@
+//! Through changes of working mode.
+
+use super::*;
+use aspecta::aspect::DetSign;
+use aspecta::motion::modes::{Configuration, ModeGraph, NoRoute};
+use aspecta::motion::plan::{PlanOptions, Planner};
+
+/// det A with leg `leg` (from 1) in the posture of `mode`.
+fn det(robot: &Robot, pose: &[f64], mode: WorkingMode) -> Option<f64> {
+    robot.inverse(pose).unwrap().into_iter().find(|s| s.mode == mode).map(|s| s.det_a)
+}
+
+#[test]
+fn the_five_bars_ten_aspects_are_two_sets_of_five() {
+    let robot = robot("five-bar");
+    let analysis = analysed(&robot, 10, &[]);
+    let graph = ModeGraph::new(&analysis);
+    assert_eq!(graph.aspects.len(), 10);
+    let signs = |group: &Vec<usize>| -> Vec<DetSign> {
+        graph.aspects.iter().filter(|a| group.contains(&a.id)).map(|a| a.det_a).collect()
+    };
+    assert_eq!(graph.groups.len(), 2);
+    assert_eq!(signs(&graph.groups[0]), [DetSign::Positive; 5]);
+    assert_eq!(signs(&graph.groups[1]), [DetSign::Negative; 5]);
+    for crossing in &graph.crossings {
+        assert!(crossing.is_proved(&robot));
+        // At the crossing the leg is stretched or folded: its two postures are one.
+        let leg = &robot.leg_solutions(&crossing.pose).unwrap()[crossing.leg - 1];
+        assert!(leg.reach.abs() < 1e-9, "{crossing:?}");
+        // On the way there both modes have the same sign of det A.
+        for i in 0..40 {
+            let t = f64::from(i) / 40.0;
+            let pose: Vec<f64> =
+                crossing.inside.iter().zip(&crossing.pose).map(|(a, b)| a + t * (b - a)).collect();
+            for mode in crossing.modes {
+                let det = det(&robot, &pose, mode).unwrap();
+                assert_eq!(det > 0.0, crossing.det_a == DetSign::Positive, "{crossing:?} {t}");
+            }
+        }
+    }
+}
+
+/// Mirroring the five-bar's plane turns det A and both modes about: its graph is symmetric.
+#[test]
+fn the_five_bars_graph_is_its_own_mirror_image() {
+    let robot = robot("five-bar");
+    let graph = ModeGraph::new(&analysed(&robot, 10, &[]));
+    for crossing in &graph.crossings {
+        let mirrored = |pose: &[f64]| [pose[0], -pose[1]];
+        let twin = graph.crossings.iter().find(|other| {
+            other.leg == crossing.leg
+                && other.modes.contains(&crossing.modes[0].opposite())
+                && other.det_a != crossing.det_a
+                && (0..2).all(|k| (mirrored(&other.pose)[k] - crossing.pose[k]).abs() < 0.1)
+        });
+        assert!(twin.is_some(), "{crossing:?}");
+    }
+}
+
+#[test]
+fn a_planted_fault_is_not_proved() {
+    let robot = robot("five-bar");
+    let graph = ModeGraph::new(&analysed(&robot, 10, &[]));
+    for crossing in &graph.crossings {
+        let mut wrong_sign = crossing.clone();
+        wrong_sign.det_a = crossing.det_a.opposite();
+        let mut wrong_leg = crossing.clone();
+        wrong_leg.leg = 3 - crossing.leg;
+        let mut too_short = crossing.clone();
+        too_short.beyond.clone_from(&crossing.inside);
+        let mut out_of_reach = crossing.clone();
+        out_of_reach.inside.clone_from(&crossing.beyond);
+        for fault in [wrong_sign, wrong_leg, too_short, out_of_reach] {
+            assert!(!fault.is_proved(&robot), "{fault:?}");
+        }
+    }
+}
+
+#[test]
+fn a_route_through_three_modes() {
+    let robot = robot("five-bar");
+    let analysis = analysed(&robot, 10, &[]);
+    let graph = ModeGraph::new(&analysis);
+    let pose = [4.0, 7.0];
+    let [start, goal] = ["++", "--"].map(|signs| Configuration { pose: &pose, mode: mode(signs) });
+    let route = Planner::new(&analysis).route(&graph, start, goal, &PlanOptions::default()).unwrap();
+    assert!(route.stretches.len() >= 3 && route.crossings.len() + 1 == route.stretches.len());
+    let (first, last) = (&route.stretches[0], &route.stretches[route.stretches.len() - 1]);
+    assert!(first.mode == mode("++") && last.mode == mode("--"));
+    assert!(same_pose(&robot, &first.waypoints[0], &pose));
+    assert!(same_pose(&robot, &last.waypoints[last.waypoints.len() - 1], &pose));
+    for stretch in &route.stretches {
+        assert_sound(&robot, stretch);
+        assert_eq!(stretch.det_a, first.det_a);
+    }
+    for (k, crossing) in route.crossings.iter().enumerate() {
+        assert!(crossing.is_proved(&robot));
+        let [before, after] = [&route.stretches[k], &route.stretches[k + 1]];
+        assert_eq!(before.mode.with_other_posture(crossing.leg - 1), after.mode);
+        assert_eq!(before.waypoints[before.waypoints.len() - 1], crossing.inside);
+        assert_eq!(after.waypoints[0], crossing.inside);
+    }
+}
+
+#[test]
+fn no_route_joins_two_signs_of_det_a() {
+    let robot = robot("five-bar");
+    let analysis = analysed(&robot, 9, &[]);
+    let graph = ModeGraph::new(&analysis);
+    let pose = [4.0, 7.0];
+    let of = |signs: &str| Configuration { pose: &pose, mode: mode(signs) };
+    let [plus, minus] = [of("++"), of("-+")];
+    assert!(det(&robot, &pose, plus.mode).unwrap() > 0.0 && det(&robot, &pose, minus.mode).unwrap() < 0.0);
+    let refusal = Planner::new(&analysis).route(&graph, plus, minus, &PlanOptions::default()).unwrap_err();
+    assert_eq!(refusal, NoRoute::OppositeSigns(DetSign::Positive));
+    assert!(refusal.is_proof());
+}
+
+/// The gaps between its cranks' ranges leave the IRB 360 one mode: there is nothing to cross to.
+#[test]
+fn limits_can_leave_nothing_to_cross_to() {
+    let graph = ModeGraph::new(&analysed(&robot("irb-360"), 5, &[]));
+    assert!(graph.crossings.is_empty());
+    assert_eq!(graph.groups.len(), graph.aspects.len());
+}

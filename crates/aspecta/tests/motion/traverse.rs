@@ -1,0 +1,103 @@
+//! Which aspects hold a set.
+
+use super::*;
+use aspecta::aspect::Place;
+use aspecta::motion::modes::ModeGraph;
+use aspecta::motion::traverse::{Holds, PoseSet, traversability};
+
+/// Whether a pose is in class `k`, by doubles.
+fn is_in(analysis: &Analysis, k: usize, pose: &[f64]) -> bool {
+    let class = &analysis.classes[k];
+    let solutions = analysis.robot.inverse(pose).unwrap();
+    let of_mode = solutions.into_iter().find(|s| s.mode == class.mode && s.within_limits);
+    of_mode.is_some_and(|s| s.det_a * f64::from(class.det_a.factor()) > 0.0)
+}
+
+#[test]
+fn boxes_are_held_as_samples_are() {
+    for (name, depth) in [("five-bar", 9), ("3-rpr", 5), ("linear-delta", 5)] {
+        let robot = robot(name);
+        let analysis = analysed(&robot, depth, &[]);
+        let mut random = Random(11);
+        let mut seen = [0; 3];
+        for trial in 0..60 {
+            // Small boxes about poses of the robot, and larger ones.
+            let modes = robot.working_modes();
+            let centre = random.pose(&analysis, modes[modes.len() - 1]);
+            let size = if trial % 2 == 0 { 0.01 } else { 0.05 };
+            let range = |k: usize| {
+                let (lo, hi) = analysis.window.ranges[k];
+                (centre[k] - size * (hi - lo), centre[k] + size * (hi - lo))
+            };
+            let ranges: Vec<(f64, f64)> = (0..robot.dof()).map(range).collect();
+            let found = traversability(&analysis, None, PoseSet::Box(ranges.clone())).unwrap();
+            for (k, class) in found.classes.iter().enumerate() {
+                match &class.holds {
+                    Holds::Whole { aspect } => {
+                        seen[0] += 1;
+                        for _ in 0..200 {
+                            let pose: Vec<f64> =
+                                ranges.iter().map(|(lo, hi)| lo + random.uniform() * (hi - lo)).collect();
+                            assert!(is_in(&analysis, k, &pose), "{name} {pose:?} {class:?}");
+                            if let (Some(id), Place::Inside(other)) = (aspect, analysis.locate(k, &pose)) {
+                                assert_eq!(*id, other);
+                            }
+                        }
+                    }
+                    Holds::NotWhole { pose, .. } => {
+                        seen[1] += 1;
+                        assert!(!is_in(&analysis, k, pose), "{name} {class:?}");
+                    }
+                    Holds::Undecided { .. } => seen[2] += 1,
+                }
+            }
+        }
+        assert!(seen[0] > 5 && seen[1] > 5 && seen[2] < 5, "{name} {seen:?}");
+    }
+}
+
+#[test]
+fn separate_poses_may_need_changes_of_mode() {
+    let robot = robot("five-bar");
+    let analysis = analysed(&robot, 10, &[]);
+    let graph = ModeGraph::new(&analysis);
+    let whole = |poses: &[[f64; 2]]| {
+        let set = PoseSet::Poses(poses.iter().map(|p| p.to_vec()).collect());
+        let found = traversability(&analysis, Some(&graph), set).unwrap();
+        let held = found.classes.iter().filter(|c| matches!(c.holds, Holds::Whole { .. })).count();
+        (held, found.groups.len())
+    };
+    // Table 2's two aspects of mode (−, +) with det A > 0, and a pose of each.
+    let of = |id: usize| analysis.aspect(id).unwrap().1.sample.pose.clone();
+    let class = analysis.classes.iter().find(|c| c.aspects.len() == 2).unwrap();
+    let samples: Vec<[f64; 2]> = class.aspects.iter().map(|a| [of(a.id)[0], of(a.id)[1]]).collect();
+    let k = analysis.class_of(class.mode, class.det_a).unwrap();
+    let set = PoseSet::Poses(samples.iter().map(|p| p.to_vec()).collect());
+    let found = traversability(&analysis, None, set).unwrap();
+    assert!(
+        matches!(found.classes[k].holds, Holds::NotWhole { constraint: None, .. }),
+        "{:?}",
+        found.classes[k]
+    );
+    assert!(whole(&samples).1 > 0);
+    assert_eq!(whole(&[[4.0, 7.0], [40.0, 7.0]]), (0, 0));
+}
+
+#[test]
+fn a_path_is_held_where_its_check_is_free() {
+    let robot = robot("five-bar");
+    let analysis = analysed(&robot, 9, &[]);
+    let path = vec![vec![4.0, 7.0], vec![1.0, 10.0], vec![5.0, -7.0]];
+    let found = traversability(&analysis, None, PoseSet::Paths(vec![path.clone()])).unwrap();
+    for class in &found.classes {
+        let check = check_path(&robot, &path, class.mode).unwrap();
+        if matches!(class.holds, Holds::Whole { .. }) {
+            assert_eq!(check.singularity_free, Some(true), "{class:?}");
+        } else {
+            let det =
+                robot.inverse(&path[0]).unwrap().into_iter().find(|s| s.mode == class.mode).unwrap().det_a;
+            let sign_fits = det * f64::from(class.det_a.factor()) > 0.0;
+            assert!(!sign_fits || check.singularity_free != Some(true), "{class:?}");
+        }
+    }
+}
