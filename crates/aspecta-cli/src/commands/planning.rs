@@ -51,7 +51,7 @@ impl Analysing {
 pub struct Wishes {
     /// How much nearness to singularities counts: a unit of length costs c^-W, c being the smaller of the normalised |det A| and the
     /// |B_jj|/max. 0: the shortest path; 8: as good as only the least clearance
-    #[arg(long, value_name = "W", default_value_t = 1.0)]
+    #[arg(long, value_name = "W", default_value_t = 1.0, allow_negative_numbers = true)]
     weight: f64,
     /// Keep at least this far from singularities all along, proved: the normalised |det A|, or that and the |B_jj|/max, each from 0 to 1
     #[arg(long, value_name = "M[,N]")]

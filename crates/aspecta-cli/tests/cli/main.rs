@@ -11,6 +11,7 @@ mod follow;
 mod json;
 mod locate;
 mod people;
+mod plan;
 mod process;
 mod verify;
 

@@ -1,0 +1,106 @@
+//! `aspecta plan`, `assembly`, `modes` and `traverse`.
+
+use crate::{aspecta, json, numbers, output, stdout};
+use std::fs;
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+#[test]
+fn a_plan_is_a_path_that_the_check_accepts() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("path.csv");
+    let arguments = "plan five-bar --from 4,7 --to 5,-7 --mode +- --budget depth=9";
+    fs::write(&path, stdout(&format!("{arguments} --csv"))).unwrap();
+    let check = output(&format!("check-path five-bar {} --mode +-", path.display()));
+    assert_eq!(check.status.code(), Some(0), "{}", text(&check.stdout));
+    let shown = stdout(arguments);
+    assert!(shown.contains("singularity-free  yes, certified"), "{shown}");
+    let plan = json(&format!("{arguments} --json"));
+    let ends = |k: usize| numbers(&plan["stretches"][0]["waypoints"][k]);
+    assert_eq!(ends(0), [4.0, 7.0]);
+    assert_eq!(plan["checks"][0]["singularity_free"], true);
+}
+
+#[test]
+fn what_cannot_be_joined_is_proved() {
+    let refused = output("assembly 3-rpr --q 14.98,15.38,12 --from 1 --to 3 --budget depth=5");
+    assert_eq!(refused.status.code(), Some(1));
+    assert!(text(&refused.stdout).contains("no such path exists, proved"), "{}", text(&refused.stdout));
+    let refused = output("plan five-bar --from 4,7 --to 4,7 --mode ++ --to-mode -+ --budget depth=9 --json");
+    assert_eq!(refused.status.code(), Some(1));
+    let answer: serde_json::Value = serde_json::from_slice(&refused.stdout).unwrap();
+    assert_eq!(answer["refusal"]["proved"], true, "{answer}");
+    assert!(answer.get("stretches").is_none(), "{answer}");
+}
+
+#[test]
+fn a_plan_goes_through_three_modes() {
+    let shown = stdout("plan five-bar --from 4,7 --to 4,7 --mode ++ --to-mode -- --budget depth=9");
+    assert!(shown.matches("through its serial singularity").count() >= 2, "{shown}");
+    let plan = json("plan five-bar --from 4,7 --to 4,7 --mode ++ --to-mode -- --budget depth=9 --json");
+    assert!(plan["stretches"].as_array().unwrap().len() >= 3, "{plan}");
+}
+
+#[test]
+fn assembly_modes_are_listed_by_aspect() {
+    let shown = stdout("assembly 3-rpr --q 14.98,15.38,12 --budget depth=6");
+    assert!(shown.contains("6 direct solutions") && shown.contains("proved to be all"), "{shown}");
+    assert_eq!(shown.matches("can be changed into one another").count(), 2, "{shown}");
+    let shown = stdout("assembly 3-rpr --q 14.98,15.38,12 --from 2 --to 3 --explain --budget depth=6");
+    assert!(shown.contains("round the cusp at") && shown.contains("vanish"), "{shown}");
+}
+
+#[test]
+fn the_graph_of_modes_is_printed_and_drawn() {
+    let directory = tempfile::tempdir().unwrap();
+    let shown = aspecta("modes five-bar --budget depth=9 --out").arg(directory.path()).output().unwrap();
+    let shown = text(&shown.stdout);
+    assert!(shown.contains("five-bar: 10 aspects, 12 crossings found"), "{shown}");
+    let drawn = fs::read_to_string(directory.path().join("modes.svg")).unwrap();
+    roxmltree::Document::parse(&drawn).unwrap();
+    assert_eq!(drawn.matches("<circle").count(), 10);
+    let graph = json("modes five-bar --budget depth=9 --json");
+    assert_eq!(graph["groups"].as_array().unwrap().len(), 2);
+}
+
+#[test]
+fn sets_of_poses_are_traversed() {
+    let shown = stdout("traverse five-bar --box 2:6,8:10 --budget depth=9");
+    assert_eq!(shown.matches("yes, certified: aspect").count(), 4, "{shown}");
+    let directory = tempfile::tempdir().unwrap();
+    let poses = directory.path().join("poses.csv");
+    fs::write(&poses, "x,y\n4,7\n5,-7\n").unwrap();
+    let shown =
+        stdout(&format!("traverse five-bar --poses {} --through-modes --budget depth=9", poses.display()));
+    assert!(shown.contains("every pose can be reached within aspects"), "{shown}");
+    let refused = output(&format!("traverse five-bar --path {} --budget depth=9", poses.display()));
+    assert_eq!(refused.status.code(), Some(1), "{}", text(&refused.stdout));
+    let map = directory.path().join("five-bar.aspecta");
+    stdout(&format!("domains five-bar --cells 60 --budget depth=9 --save {}", map.display()));
+    let shown = stdout(&format!("traverse five-bar --box 2:6,8:10 --budget depth=9 --map {}", map.display()));
+    assert!(shown.contains("uniqueness domain 1 of aspect"), "{shown}");
+}
+
+#[test]
+fn mistakes_are_named() {
+    for (arguments, complaint) in [
+        ("plan five-bar --from 4,7 --to 5 --mode +-", "has 2 pose coordinates (x, y), but 1 were given"),
+        ("plan five-bar --from 4,7 --to 5,a --mode +-", "`a`, is not a number"),
+        ("plan five-bar --from 4,7 --to 5,6 --mode +", "`+` is not a working mode of `five-bar`"),
+        ("plan five-bar --from 4,7 --to 5,6 --mode +- --avoid 2", "--avoid `2`: give one number from 0 to 1"),
+        ("plan five-bar --from 4,7 --to 5,6 --mode +- --weight -1", "--weight"),
+        ("plan hexa --from 0,0,-600,0,0,0 --to 0,0,-600,0,0,0 --mode ------", "6 degrees of freedom"),
+        ("assembly 3-rpr --q 14.98,15.38,12 --from 1 --to 9", "has 6 direct solutions"),
+        ("assembly 3-rpr --q 14.98,15.38 ", "has 3 joint coordinates"),
+        ("traverse five-bar --box 6:2,8:10", "range 1 ends before it begins"),
+        ("traverse five-bar --box 2:6", "has 2 pose coordinates"),
+        ("traverse five-bar --box 2:6,8:10 --map five-bar", "give a file written by"),
+    ] {
+        let output = output(arguments);
+        let message = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments}: {message}");
+        assert!(message.contains(complaint), "{arguments}: {message}");
+    }
+}

@@ -1,0 +1,81 @@
+//! Planning within an aspect. Run `cargo bench -p aspecta --bench plan`.
+//!
+//! Random pairs of poses in one mode, those that can be joined; aspects and boxes are loaded.
+
+use aspecta::aspect::{Options, analyze};
+use aspecta::kinematics::WorkingMode;
+use aspecta::motion::modes::ModeGraph;
+use aspecta::motion::plan::{PlanOptions, Planner};
+use aspecta::paving::{Budget, Control};
+use aspecta::robot::catalogue;
+use criterion::{Criterion, criterion_group, criterion_main};
+use std::hint::black_box;
+use std::sync::atomic::AtomicBool;
+use std::time::Instant;
+
+/// Pairs per robot.
+const PAIRS: usize = 300;
+
+static NEVER: AtomicBool = AtomicBool::new(false);
+
+/// A low-discrepancy sequence in [0, 1).
+fn share(i: usize, k: usize) -> f64 {
+    (i as f64 * [0.754_877_7, 0.569_840_3, 0.430_159_7][k % 3]).fract()
+}
+
+fn plan(c: &mut Criterion) {
+    for (name, mode, depth) in [("five-bar", "+-", 11), ("3-rpr", "---", 7), ("3-rrr", "+++", 7)] {
+        let robot = catalogue::find(name).expect("a robot of the catalogue");
+        let mode: WorkingMode = mode.parse().expect("a mode");
+        let budget = Budget { depth: Some(depth), ..Budget::default() };
+        let control = Control { cancelled: &NEVER, progress: &|_| {} };
+        let options = Options { budget, modes: vec![mode], ..Options::default() };
+        let analysis = analyze(&robot, &options, &control).expect("a bounded robot");
+        let ranges = &analysis.window.ranges;
+        let pose = |i: usize| -> Vec<f64> {
+            ranges.iter().enumerate().map(|(k, r)| r.0 + share(i, k) * (r.1 - r.0)).collect()
+        };
+        let in_reach = |pose: &Vec<f64>| {
+            let solutions = robot.inverse(pose).expect("a pose");
+            solutions.iter().any(|s| s.mode == mode && s.within_limits)
+        };
+        let poses: Vec<Vec<f64>> = (1..).map(pose).filter(in_reach).take(2 * PAIRS).collect();
+        let mut planner = Planner::new(&analysis);
+        let mut times = Vec::new();
+        let mut joined = Vec::new();
+        for pair in poses.chunks(2) {
+            let start = Instant::now();
+            if planner.plan(mode, &pair[0], &pair[1], &PlanOptions::default()).is_ok() {
+                times.push(start.elapsed().as_secs_f64() * 1e3);
+                joined.push(pair);
+            }
+        }
+        times.sort_by(f64::total_cmp);
+        let at = |part: usize| times[(times.len() - 1) * part / 100];
+        println!(
+            "{name}: {} of {PAIRS} pairs planned; ms: median {:.2}, 90 % {:.2}",
+            times.len(),
+            at(50),
+            at(90)
+        );
+        let mut i = 0;
+        c.bench_function(&format!("{name}/plan, mean of pairs"), |b| {
+            b.iter(|| {
+                i = (i + 1) % joined.len();
+                planner.plan(mode, black_box(&joined[i][0]), &joined[i][1], &PlanOptions::default()).is_ok()
+            })
+        });
+    }
+    let robot = catalogue::find("five-bar").expect("a robot of the catalogue");
+    let budget = Budget { depth: Some(11), ..Budget::default() };
+    let control = Control { cancelled: &NEVER, progress: &|_| {} };
+    let analysis = analyze(&robot, &Options { budget, ..Options::default() }, &control).expect("bounded");
+    c.bench_function("five-bar/graph of working-mode changes", |b| b.iter(|| ModeGraph::new(&analysis)));
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default().sample_size(20);
+    targets = plan
+}
+criterion_main!(benches);
