@@ -4,6 +4,7 @@ mod analyze;
 mod budget;
 mod check;
 mod check_path;
+mod checked_path;
 mod completions;
 mod cusps;
 mod domains;
@@ -15,6 +16,7 @@ mod follow;
 mod ik;
 mod locate;
 mod mapping;
+mod path_verdict;
 mod places;
 mod queries;
 mod regions;
@@ -51,7 +53,7 @@ pub enum Command {
     State(state::State),
     /// Cusps: where three direct solutions meet, all of a slice or curves through the whole robot
     Cusps(cusps::Cusps),
-    /// Prove that a path of straight segments meets no singularity, or find where it does
+    /// Prove that a path meets no singularity, or find where it does
     CheckPath(check_path::CheckPath),
     /// Follow one solution along a stream of joint vectors (or poses), every step certified, as it comes
     Follow(follow::Follow),
