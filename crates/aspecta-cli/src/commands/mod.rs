@@ -27,6 +27,7 @@ mod solve;
 mod state;
 mod summary;
 mod target;
+mod time;
 mod verify;
 mod watch;
 
@@ -55,6 +56,8 @@ pub enum Command {
     Cusps(cusps::Cusps),
     /// Prove that a path meets no singularity, or find where it does
     CheckPath(check_path::CheckPath),
+    /// Run through a path as fast as joint speeds and accelerations allow, once it is proved to be sound
+    Time(time::Time),
     /// Follow one solution along a stream of joint vectors (or poses), every step certified, as it comes
     Follow(follow::Follow),
     /// List the robots of the catalogue, or show one's file
@@ -80,6 +83,7 @@ impl Command {
             Self::State(command) => command.run(out),
             Self::Cusps(command) => command.run(out),
             Self::CheckPath(command) => command.run(out),
+            Self::Time(command) => command.run(out),
             Self::Follow(command) => command.run(out),
             Self::Robots(command) => command.run(out),
             Self::Check(command) => command.run(out),

@@ -11,6 +11,7 @@ mod json;
 mod locate;
 mod people;
 mod process;
+mod time;
 mod verify;
 
 use assert_cmd::Command;
