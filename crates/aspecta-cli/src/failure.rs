@@ -6,6 +6,7 @@ use aspecta::domain::cusps::CuspError;
 use aspecta::kinematics::KinematicsError;
 use aspecta::motion::PathError;
 use aspecta::motion::follow::StartError;
+use aspecta::motion::time::TimeError;
 use aspecta::robot::FileError;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -50,6 +51,9 @@ pub enum Failure {
     /// The path cannot be checked.
     #[error(transparent)]
     Path(#[from] PathError),
+    /// The path cannot be timed.
+    #[error(transparent)]
+    Time(#[from] TimeError),
     /// Following cannot start.
     #[error(transparent)]
     Start(#[from] StartError),

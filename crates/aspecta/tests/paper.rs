@@ -55,18 +55,40 @@ fn table_4_ends_have_the_same_joint_vector() {
 }
 
 /// Section 4.1.5: along Table 4's path no determinant vanishes, proved between the samples too.
+const TABLE_4: [[f64; 3]; 3] = [[-15.468, 0.781, 0.073], [-15.468, -7.091, 0.500], [-9.902, -7.091, 1.081]];
+
 #[test]
 fn table_4_path_meets_no_singularity() {
-    let path = [vec![-15.468, 0.781, 0.073], vec![-15.468, -7.091, 0.500], vec![-9.902, -7.091, 1.081]];
-    let check = check_path(&three_rrr(), &path, "+++".parse().unwrap()).unwrap();
-    assert_eq!(check.singularity_free, Some(true));
-    assert!(check.obstacle.is_none() && check.min_abs_det_a.value > 1.0, "{:?}", check.min_abs_det_a);
+    let check = check_path(&three_rrr(), &TABLE_4.map(Vec::from), "+++".parse().unwrap()).unwrap();
+    assert!(check.singularity_free == Some(true) && check.obstacle.is_none());
+    let least = &check.clearance.as_ref().unwrap().det_a;
+    assert!(
+        least.at_least > 6842.0 && least.at_most < 6843.0 && least.at_most - least.at_least < 0.01,
+        "{least:?}"
+    );
+    assert!(least.segment == 2 && (least.t - 0.389).abs() < 1e-3, "{least:?}");
     // Figure 11: nothing changes sign.
     let signs = |f: &dyn Fn(&ProfilePoint) -> f64| check.profile.iter().all(|p| f(p) > 0.0);
     assert!(
         (0..3).all(|j| signs(&|p| p.relative_b[j]))
             && (signs(&|p| p.relative_det_a) || signs(&|p| -p.relative_det_a))
     );
+}
+
+/// The way back in mode ++- meets a singularity, and its place is said: there det A is nought or a leg is stretched.
+#[test]
+fn table_4_reversed_in_another_mode_is_refused() {
+    let robot = three_rrr();
+    let mut poses = TABLE_4.map(Vec::from);
+    poses.reverse();
+    let check = check_path(&robot, &poses, "++-".parse().unwrap()).unwrap();
+    assert_eq!(check.singularity_free, Some(false));
+    let obstacle = check.obstacle.unwrap();
+    let mode = "++-".parse().unwrap();
+    let state =
+        robot.inverse_in(&obstacle.pose, mode).unwrap().map(|q| robot.state(&obstacle.pose, &q).unwrap());
+    let nearest = state.map_or(0.0, |s| s.serial_measures.iter().copied().fold(s.parallel_measure, f64::min));
+    assert!(obstacle.proved && nearest < 1e-5, "{obstacle:?}: {nearest}");
 }
 
 /// Straight up, leg 1 stretches out before (4, 14): a serial singularity, then out of reach.

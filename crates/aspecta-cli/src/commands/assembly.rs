@@ -1,6 +1,6 @@
 //! `aspecta assembly`: the poses of a joint vector by aspects, and how to change from one to another.
 
-use super::planning::{self, Analysing, Wishes};
+use super::planning::{self, Analysing, Moving, Wishes};
 use super::queries::{Labels, det_a_unit};
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
@@ -34,6 +34,8 @@ pub struct Assembly {
     explain: bool,
     #[command(flatten)]
     wishes: Wishes,
+    #[command(flatten)]
+    moving: Moving,
     #[command(flatten)]
     analysing: Analysing,
     #[command(flatten)]
@@ -120,7 +122,7 @@ impl Assembly {
             }
             return Ok(Answer::from(found.modes.complete));
         };
-        let answer = planning::print(out, robot, change, self.shown)?;
+        let answer = planning::print(out, robot, change, &self.moving, self.shown)?;
         if let (Format::Table, Some((folds, cusps))) = (self.shown.format(), &found.explained) {
             explain(out, robot, folds, cusps, self.shown.deg)?;
         } else if self.explain && self.shown.format() != Format::Table {

@@ -1,12 +1,13 @@
-//! `aspecta check-path`: whether a path of straight segments meets a singularity.
+//! `aspecta check-path`: whether a path meets a singularity, or comes too near to one.
 
-use super::queries::{Labels, det_a_unit};
+use super::checked_path::PathArgs;
+use super::path_verdict::print;
 use crate::failure::{Answer, Failure};
-use crate::input::{self, Columns};
-use crate::output::{FORMAT_VERSION, Format, FormatArgs, exact, json, note, number};
-use aspecta::motion::{Obstacle, PathCheck, check_path};
+use crate::input::Columns;
+use crate::output::{FORMAT_VERSION, Format, FormatArgs, exact, json, note};
+use aspecta::motion::PathCheck;
 use aspecta::robot::Robot;
-use aspecta_cli::figure::profile::{failure, figure_11};
+use aspecta_cli::figure::profile::figure_11;
 use aspecta_cli::file;
 use clap::Args;
 use serde::Serialize;
@@ -16,17 +17,20 @@ use std::path::{Path, PathBuf};
 
 /// Arguments of `check-path`.
 #[derive(Args)]
+#[command(after_help = "\
+A path of poses is checked in a working mode, a path of joint vectors from the pose on in which it starts. What is said holds \
+between the lines of the file too: it is proved by interval arithmetic, or said to be undecided.\n\
+A spline passes through all lines, with continuous curvature, over the lengths of its chords (lengths divided by the robot's \
+characteristic length, angles in radians); its ends are not-a-knot. Angles are real numbers: they go on past 180 degrees, and \
+a step from 179 to -179 degrees is nearly a full turn.\n\
+The clearances are the least |det A| (in the paper's unit), |det Â| (rows of A scaled to unit forces, moments by the characteristic \
+length) and |B_jj| as a share of the greatest, along the path or up to where it meets a singularity.\n\n\
+  aspecta check-path 3-rrr path.csv --mode +++\n\
+  aspecta check-path 3-rrr path.csv --mode +++ --joined spline --avoid 0.05,0.1\n\
+  aspecta check-path 3-rrr joints.csv --start -15.468,0.781,0.073 --csv")]
 pub struct CheckPath {
-    /// Name from `aspecta robots`, or path of a robot file
-    robot: String,
-    /// A CSV file of poses, one a line, joined by straight segments; `-` reads stdin
-    path: String,
-    /// The working mode the robot stays in, such as `+-+`
-    #[arg(long, allow_hyphen_values = true)]
-    mode: String,
-    /// Angles of the file and of what people read are in degrees
-    #[arg(long)]
-    deg: bool,
+    #[command(flatten)]
+    path: PathArgs,
     /// Draw det A and the B_jj along the path: figure11.svg in this directory
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -44,13 +48,9 @@ struct Document<'a> {
 
 impl CheckPath {
     pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
-        let robot = input::robot(&self.robot)?;
-        let mode = input::mode(&robot, &self.mode)?;
-        let rows = input::rows(&self.path, &[Columns::pose(&robot)], self.deg)?;
-        let poses: Vec<_> = rows.into_iter().map(|row| row.values).collect();
-        let check = check_path(&robot, &poses, mode)?;
+        let (robot, lines, check) = self.path.check()?;
         let draw = |directory: &PathBuf| {
-            draw(directory, &robot, &check, poses.len()).map_err(Failure::in_directory(directory))
+            draw(directory, &robot, &check, lines).map_err(Failure::in_directory(directory))
         };
         let figure = self.out.as_ref().map(draw).transpose()?;
         match self.format.format() {
@@ -58,7 +58,7 @@ impl CheckPath {
                 json(out, &Document { format_version: FORMAT_VERSION, robot: &robot.name, check: &check })?;
             }
             Format::Csv => print_profile(out, &robot, &check)?,
-            Format::Table => print(out, &robot, &check, poses.len(), self.deg)?,
+            Format::Table => print(out, &robot, &check, &self.path, lines)?,
         }
         if let Some(figure) = figure {
             let written = format!("figure: {}", figure.display());
@@ -67,7 +67,7 @@ impl CheckPath {
                 Format::Json | Format::Csv => note(&written),
             }
         }
-        Ok(Answer::from(check.singularity_free == Some(true) && check.within_limits == Some(true)))
+        Ok(Answer::from(check.is_sound()))
     }
 }
 
@@ -77,67 +77,20 @@ fn draw(directory: &Path, robot: &Robot, check: &PathCheck, points: usize) -> io
     file::put(directory, "figure11.svg", figure_11(robot, check, points))
 }
 
-/// Figure 11: det A and the B_jj along the path, each divided by its largest modulus.
+/// The path: poses, joint vectors, and figure 11, det A and the B_jj, each divided by its largest modulus.
 fn print_profile(out: &mut dyn Write, robot: &Robot, check: &PathCheck) -> Result<(), Failure> {
     let mut csv = csv::Writer::from_writer(out);
     let names = Columns::pose(robot).and(&Columns::joints(robot)).names;
     let b = (1..=robot.dof()).map(|j| format!("relative_b_{j}{j}"));
     let first = ["segment", "t"].map(String::from);
-    csv.write_record(first.into_iter().chain(names).chain(["relative_det_a".into()]).chain(b))?;
+    let last = ["mode".to_owned()];
+    csv.write_record(first.into_iter().chain(names).chain(["relative_det_a".into()]).chain(b).chain(last))?;
     for p in &check.profile {
         let numbers =
             [&p.t].into_iter().chain(&p.pose).chain(&p.q).chain([&p.relative_det_a]).chain(&p.relative_b);
-        csv.write_record([p.segment.to_string()].into_iter().chain(numbers.map(|x| exact(*x))))?;
+        let segment = [p.segment.to_string()];
+        csv.write_record(segment.into_iter().chain(numbers.map(|x| exact(*x))).chain([p.mode.to_string()]))?;
     }
     csv.flush()?;
     Ok(())
-}
-
-fn print(
-    out: &mut dyn Write,
-    robot: &Robot,
-    check: &PathCheck,
-    poses: usize,
-    degrees: bool,
-) -> Result<(), Failure> {
-    let (pose, joints) = (Labels::pose(robot, degrees), Labels::joints(robot, degrees));
-    writeln!(out, "{}, working mode {}, {poses} poses joined by straight segments", robot.name, check.mode)?;
-    let free = match check.singularity_free {
-        Some(true) => "yes, certified: det A keeps its sign and no B_jj vanishes all along",
-        Some(false) => "no, certified",
-        None => "undecided",
-    };
-    writeln!(out, "singularity-free  {free}")?;
-    let within = match check.within_limits {
-        Some(true) if robot.legs.iter().all(|leg| leg.limits.is_empty()) => "yes (the robot has no limits)",
-        Some(true) => "yes, certified",
-        Some(false) => "no, certified",
-        None => "undecided",
-    };
-    writeln!(out, "within limits     {within}")?;
-    if let Some(obstacle) = &check.obstacle {
-        writeln!(out, "obstacle          {}", describe(obstacle))?;
-        writeln!(out, "                  near {}", pose.sentence(&obstacle.pose))?;
-    }
-    let least = &check.min_abs_det_a;
-    let unit = det_a_unit(robot);
-    writeln!(
-        out,
-        "min |det A|       {}{unit}, segment {}, t = {}",
-        number(least.value),
-        least.segment,
-        number(least.t)
-    )?;
-    writeln!(out, "                  at {}", pose.sentence(&least.pose))?;
-    for (name, q) in ["start", "end"].iter().zip(&check.ends) {
-        let q = q.as_ref().map_or("out of reach".to_owned(), |q| joints.sentence(q));
-        writeln!(out, "{:<18}{q}", format!("joints, {name}"))?;
-    }
-    Ok(())
-}
-
-/// What fails, and where along the path.
-fn describe(obstacle: &Obstacle) -> String {
-    let (from, to) = obstacle.t;
-    format!("{}, segment {}, t = {} … {}", failure(obstacle), obstacle.segment, number(from), number(to))
 }

@@ -5,6 +5,7 @@ mod assembly;
 mod budget;
 mod check;
 mod check_path;
+mod checked_path;
 mod completions;
 mod cusps;
 mod domains;
@@ -18,6 +19,7 @@ mod ik;
 mod locate;
 mod mapping;
 mod modes;
+mod path_verdict;
 mod places;
 mod plan;
 mod planning;
@@ -31,6 +33,8 @@ mod start;
 mod state;
 mod summary;
 mod target;
+mod time;
+mod timing;
 mod traverse;
 mod verify;
 mod watch;
@@ -58,7 +62,7 @@ pub enum Command {
     State(state::State),
     /// Cusps: where three direct solutions meet, all of a slice or curves through the whole robot
     Cusps(cusps::Cusps),
-    /// Prove that a path of straight segments meets no singularity, or find where it does
+    /// Prove that a path meets no singularity, or find where it does
     CheckPath(check_path::CheckPath),
     /// Plan a motion without singularities, certified, within an aspect or through changes of working mode
     Plan(plan::Plan),
@@ -68,6 +72,8 @@ pub enum Command {
     Modes(modes::Modes),
     /// Which aspects and uniqueness domains hold a whole set of poses: a box, a list, paths
     Traverse(traverse::Traverse),
+    /// Run through a path as fast as joint speeds and accelerations allow, once it is proved to be sound
+    Time(time::Time),
     /// Follow one solution along a stream of joint vectors (or poses), every step certified, as it comes
     Follow(follow::Follow),
     /// The robot as a file for another program
@@ -99,6 +105,7 @@ impl Command {
             Self::Assembly(command) => command.run(out),
             Self::Modes(command) => command.run(out),
             Self::Traverse(command) => command.run(out),
+            Self::Time(command) => command.run(out),
             Self::Follow(command) => command.run(out),
             Self::Export(command) => command.run(out),
             Self::Robots(command) => command.run(out),

@@ -1,6 +1,6 @@
 //! `aspecta plan`: from one pose to another without a singularity, or the proof that there is no such way.
 
-use super::planning::{self, Analysing, Wishes};
+use super::planning::{self, Analysing, Moving, Wishes};
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
 use crate::output::ShownArgs;
@@ -33,6 +33,8 @@ pub struct Plan {
     through_modes: bool,
     #[command(flatten)]
     wishes: Wishes,
+    #[command(flatten)]
+    moving: Moving,
     #[command(flatten)]
     analysing: Analysing,
     #[command(flatten)]
@@ -71,6 +73,6 @@ impl Plan {
                 [Configuration { pose: &from, mode }, Configuration { pose: &to, mode: to_mode }];
             Ok(planner.route(&graph, start, goal, &options))
         })?;
-        planning::print(out, &robot, &result, self.shown)
+        planning::print(out, &robot, &result, &self.moving, self.shown)
     }
 }

@@ -1,21 +1,25 @@
 //! What the commands that plan motions share: the analysis they plan over, and how plans are shown.
 
 use super::budget;
-use super::queries::Labels;
+use super::path_verdict::bounds;
+use super::queries::{Labels, det_a_unit};
+use super::timing;
 use super::watch::watched;
 use crate::failure::{Answer, Failure};
-use crate::output::{Align, FORMAT_VERSION, Format, ShownArgs, Table, brief, exact, json, note, number};
+use crate::output::{Align, FORMAT_VERSION, Format, ShownArgs, Table, brief, exact, json, note};
 use aspecta::aspect::{Analysis, Options, analyze};
 use aspecta::kinematics::WorkingMode;
 use aspecta::kinematics::demand::Margins;
 use aspecta::motion::modes::{NoRoute, Route};
-use aspecta::motion::plan::PlanOptions;
-use aspecta::motion::{PathCheck, check_path};
+use aspecta::motion::plan::{Plan, PlanOptions};
+use aspecta::motion::time::trajectory;
+use aspecta::motion::{Clearance, Joined, Least, PathCheck, PathOptions, check_poses};
 use aspecta::paving::Budget;
 use aspecta::robot::Robot;
 use clap::Args;
 use serde::Serialize;
 use std::io::Write;
+use std::path::PathBuf;
 
 /// How the robot is analysed before anything is planned.
 #[derive(Args)]
@@ -104,6 +108,41 @@ struct Refused {
     proved: bool,
 }
 
+/// The motion to be written besides.
+#[derive(Args)]
+pub struct Moving {
+    /// Write the motion under joint limits to this CSV file: time, pose, joints, their speeds and accelerations. The robot rests at each
+    /// waypoint, but not where a leg changes its posture
+    #[arg(long, value_name = "FILE", requires = "speed", requires = "acceleration")]
+    trajectory: Option<PathBuf>,
+    /// The greatest speed of the joints: one number for all, or one a joint
+    #[arg(long, value_name = "V[,V…]", requires = "trajectory")]
+    speed: Option<String>,
+    /// The greatest acceleration of the joints: one number for all, or one a joint
+    #[arg(long, value_name = "A[,A…]", requires = "trajectory")]
+    acceleration: Option<String>,
+    /// Rows a second
+    #[arg(long, value_name = "HZ", default_value_t = 100.0)]
+    rate: f64,
+}
+
+impl Moving {
+    /// Writes what was asked for, and says so.
+    fn write(&self, robot: &Robot, route: &Route, degrees: bool) -> Result<Option<String>, Failure> {
+        let (Some(path), Some(speed), Some(acceleration)) =
+            (&self.trajectory, &self.speed, &self.acceleration)
+        else {
+            return Ok(None);
+        };
+        timing::check_rate(self.rate)?;
+        let limits = timing::limits(robot, speed, acceleration, degrees)?;
+        let motion = trajectory(&route.pieces(robot), &limits)?;
+        timing::check_length(&motion, self.rate)?;
+        let written = timing::write("--trajectory", path, robot, &motion, self.rate)?;
+        Ok(Some(format!("{written}\ntotal time: {} s", brief(motion.total_time()))))
+    }
+}
+
 /// Prints a route, checked once more, or why there is none.
 ///
 /// # Errors
@@ -112,6 +151,7 @@ pub fn print(
     out: &mut dyn Write,
     robot: &Robot,
     result: &Result<Route, NoRoute>,
+    moving: &Moving,
     shown: ShownArgs,
 ) -> Result<Answer, Failure> {
     let (format, name) = (shown.format(), &robot.name);
@@ -137,6 +177,7 @@ pub fn print(
         }
         Ok(route) => {
             let checks = checks(robot, route)?;
+            let written = moving.write(robot, route, shown.deg)?;
             match format {
                 Format::Json => {
                     (document.route, document.checks) = (Some(route), checks);
@@ -144,6 +185,11 @@ pub fn print(
                 }
                 Format::Csv => print_csv(out, robot, route)?,
                 Format::Table => print_route(out, robot, route, &checks, shown.deg)?,
+            }
+            match (written, format) {
+                (Some(written), Format::Table) => writeln!(out, "{written}")?,
+                (Some(written), _) => note(&written),
+                (None, _) => {}
             }
             Ok(Answer::Yes)
         }
@@ -164,7 +210,11 @@ fn driven(route: &Route) -> Vec<(WorkingMode, Vec<Vec<f64>>)> {
 
 /// The check of each stretch of a route, which knows nothing of how it was planned.
 fn checks(robot: &Robot, route: &Route) -> Result<Vec<PathCheck>, Failure> {
-    route.stretches.iter().map(|s| Ok(check_path(robot, &s.waypoints, s.mode)?)).collect()
+    let check = |s: &Plan| {
+        let options = PathOptions { joined: Joined::Straight, margins: s.margins };
+        Ok(check_poses(robot, &s.waypoints, s.mode, &options)?)
+    };
+    route.stretches.iter().map(check).collect()
 }
 
 /// The waypoints, their modes and what is proved.
@@ -201,12 +251,20 @@ fn print_route(
         brief(length),
         robot.length_unit
     )?;
-    let proved = checks.iter().all(|c| c.singularity_free == Some(true) && c.within_limits == Some(true));
-    let word = if proved { "yes, certified, limits included" } else { "not proved" };
+    let proved = checks.iter().all(PathCheck::is_sound);
+    let word = if proved { "yes, certified, limits and margins included" } else { "not proved" };
     writeln!(out, "singularity-free  {word}")?;
-    if let Some(least) = checks.iter().map(|c| &c.min_abs_det_a).min_by(|a, b| a.value.total_cmp(&b.value)) {
-        writeln!(out, "min |det A|       {}{}", number(least.value), super::queries::det_a_unit(robot))?;
-        writeln!(out, "                  at {}", labels.sentence(&least.pose))?;
+    let least = |of: fn(&Clearance) -> &Least| {
+        let all = checks.iter().filter_map(|c| Some(of(c.clearance.as_ref()?)));
+        all.min_by(|a, b| a.at_least.total_cmp(&b.at_least))
+    };
+    let named = [
+        ("min |det A|", least(|c| &c.det_a), det_a_unit(robot)),
+        ("min |det Â|", least(|c| &c.parallel), String::new()),
+    ];
+    for (name, least, unit) in named {
+        let Some(least) = least else { continue };
+        writeln!(out, "{name:<18}{}{unit}, at {}", bounds(least), labels.sentence(&least.pose))?;
     }
     for crossing in &route.crossings {
         writeln!(

@@ -6,23 +6,26 @@ use super::palette::{self, INK, OBSTACLE};
 use super::robot::{signs, subscript};
 use super::svg::{Anchor, Svg};
 use aspecta::kinematics::modal::Constraint;
-use aspecta::motion::{Obstacle, PathCheck, ProfilePoint};
+use aspecta::motion::{Asked, Joined, Obstacle, PathCheck, ProfilePoint};
 use aspecta::robot::Robot;
 
 /// Pixels the label of a point takes, so that neighbours do not run into each other.
 const LABEL: f64 = 52.0;
 /// Narrowest band an obstacle is drawn as, pixels.
 const BAND: f64 = 3.0;
+/// Radius of a sample that is not joined to others, pixels.
+const DOT: f64 = 2.5;
 
 /// det A and the B_jj, each divided by its largest modulus, over segment + t: Point k of the path is at k.
 ///
 /// `points` is the number of poses of the path; the figure ends where the check does.
 pub fn figure_11(robot: &Robot, check: &PathCheck, points: usize) -> String {
-    let last = last_point(check);
+    let last = last_point(check, points);
+    let apart = check.joined == Joined::None;
     let chart = Chart {
         x: Axis {
-            label: "segment + t, with t from 0 to 1 along each segment".into(),
-            range: (1.0, last as f64),
+            label: if apart { "sample" } else { "segment + t, with t from 0 to 1 along each segment" }.into(),
+            range: if apart { (0.5, last as f64 + 0.5) } else { (1.0, last as f64) },
             angle: false,
         },
         y: Axis { label: "value / largest modulus".into(), range: (-1.25, 1.25), angle: false },
@@ -43,19 +46,24 @@ pub fn figure_11(robot: &Robot, check: &PathCheck, points: usize) -> String {
     let curves = curves(robot);
     chart.clip(&mut svg);
     if let Some(obstacle) = &check.obstacle {
-        band(&mut svg, &chart, obstacle);
+        band(&mut svg, &chart, obstacle, apart);
     }
     for curve in &curves {
         svg.open("class=\"curve\"");
         for run in runs(&check.profile) {
             let line: Vec<_> = run.iter().map(|p| chart.at([along(p), (curve.value)(p)])).collect();
-            svg.polyline(&line, false, &curve.style);
+            if apart {
+                let style = format!("{};stroke-dasharray:none", curve.style);
+                line.iter().for_each(|at| svg.circle(*at, DOT, &style));
+            } else {
+                svg.polyline(&line, false, &curve.style);
+            }
         }
         svg.close();
     }
     svg.close();
     if let Some(obstacle) = &check.obstacle {
-        name_obstacle(&mut svg, &chart, obstacle);
+        name_obstacle(&mut svg, &chart, obstacle, apart);
     }
     chart.frame(&mut svg, &title);
     legend(&mut svg, &curves, check.obstacle.is_some(), [chart.left, 426.0]);
@@ -65,6 +73,10 @@ pub fn figure_11(robot: &Robot, check: &PathCheck, points: usize) -> String {
 /// What fails at an obstacle, in words.
 pub fn failure(obstacle: &Obstacle) -> String {
     let what = match obstacle.constraint {
+        Constraint::Det if obstacle.asked == Asked::Margin => "|det Â| falls below its margin".to_owned(),
+        Constraint::Reach(j) if obstacle.asked == Asked::Margin => {
+            format!("|B{0}{0}|/max falls below its margin", subscript(j + 1))
+        }
         Constraint::Det => "det A vanishes or changes sign (parallel singularity)".to_owned(),
         Constraint::Reach(j) => format!("leg {} reaches its limit (serial singularity)", j + 1),
         Constraint::Limit(j, k) => format!("leg {} meets its joint limit {}", j + 1, k + 1),
@@ -73,9 +85,10 @@ pub fn failure(obstacle: &Obstacle) -> String {
 }
 
 /// The number of the point at which the check ended.
-fn last_point(check: &PathCheck) -> usize {
+fn last_point(check: &PathCheck, points: usize) -> usize {
     let segments = check.profile.last().map(|p| p.segment).into_iter();
-    segments.chain(check.obstacle.as_ref().map(|o| o.segment)).max().unwrap_or(1) + 1
+    let last = segments.chain(check.obstacle.as_ref().map(|o| o.segment)).max().unwrap_or(1) + 1;
+    last.min(points.max(2))
 }
 
 fn along(p: &ProfilePoint) -> f64 {
@@ -132,23 +145,23 @@ fn mark_points(svg: &mut Svg, chart: &Chart, last: usize) {
 }
 
 /// Left and right edge of an obstacle, pixels.
-fn edges(chart: &Chart, obstacle: &Obstacle) -> [f64; 2] {
+fn edges(chart: &Chart, obstacle: &Obstacle, apart: bool) -> [f64; 2] {
     let at = |t: f64| chart.at([obstacle.segment as f64 + t, 0.0])[0];
-    let (from, to) = (at(obstacle.t.0), at(obstacle.t.1));
+    let (from, to) = if apart { (at(0.0), at(0.0)) } else { (at(obstacle.t.0), at(obstacle.t.1)) };
     let missing = (BAND - (to - from)).max(0.0) / 2.0;
     [from - missing, to + missing]
 }
 
-fn band(svg: &mut Svg, chart: &Chart, obstacle: &Obstacle) {
-    let [from, to] = edges(chart, obstacle);
+fn band(svg: &mut Svg, chart: &Chart, obstacle: &Obstacle, apart: bool) {
+    let [from, to] = edges(chart, obstacle, apart);
     svg.open("class=\"obstacle\"");
     svg.rect(from, chart.top, to - from, chart.height, &format!("fill:{OBSTACLE};fill-opacity:0.55"));
     svg.close();
 }
 
 /// Beside the band, on the side with more room, below all curves.
-fn name_obstacle(svg: &mut Svg, chart: &Chart, obstacle: &Obstacle) {
-    let [from, to] = edges(chart, obstacle);
+fn name_obstacle(svg: &mut Svg, chart: &Chart, obstacle: &Obstacle, apart: bool) {
+    let [from, to] = edges(chart, obstacle, apart);
     let bottom = chart.top + chart.height - 9.0;
     let right = from + to < 2.0 * chart.left + chart.width;
     let (x, anchor) = if right { (to + 5.0, Anchor::Start) } else { (from - 5.0, Anchor::End) };

@@ -9,7 +9,7 @@ use clap::Args;
 use serde::Serialize;
 use std::io::{self, Write};
 
-/// Version of the JSON of `ik`, `fk`, `state` and `check-path`; raised when a field changes its meaning
+/// Version of the JSON of `ik`, `fk`, `state`, `check-path` and `time`; raised when a field changes its meaning
 /// or goes away.
 pub const FORMAT_VERSION: u32 = 1;
 

@@ -1,6 +1,6 @@
 //! `aspecta check-path`: Table 4 and its opposite.
 
-use crate::{aspecta, numbers};
+use crate::{aspecta, numbers, stdout};
 use serde_json::Value;
 use std::fs;
 use std::path::PathBuf;
@@ -30,11 +30,14 @@ fn check(robot: &str, content: &str, mode: &str) -> (Value, Option<i32>) {
 fn table_4_is_free_of_singularities() {
     let (document, code) = check("3-rrr", TABLE_4, "+++");
     assert_eq!((&document["singularity_free"], code), (&Value::from(true), Some(0)));
-    let least = &document["min_abs_det_a"];
-    assert!(least["value"].as_f64().unwrap() > 0.0);
-    assert_eq!(numbers(&least["pose"]).len(), 3);
-    assert!([1, 2].contains(&least["segment"].as_u64().unwrap()));
-    assert!((0.0..=1.0).contains(&least["t"].as_f64().unwrap()));
+    let least = &document["clearance"]["det_a"];
+    let number = |name: &str| least[name].as_f64().unwrap();
+    assert!(
+        6842.0 < number("at_least") && number("at_least") <= number("at_most") && number("at_most") < 6843.0
+    );
+    assert_eq!((numbers(&least["pose"]).len(), &least["segment"]), (3, &Value::from(2)));
+    assert!((number("t") - 0.39).abs() < 0.01, "{least}");
+    assert_eq!(document["clearance"]["serial"].as_array().unwrap().len(), 3);
 }
 
 /// Table 4's ends have the same joint vector, and figure 11's curves reach 1 somewhere.
@@ -51,9 +54,10 @@ fn table_4_ends_meet_and_figure_11_is_normalised() {
     let mut lines = text.lines();
     assert_eq!(
         lines.next(),
-        Some("segment,t,x,y,phi,q1,q2,q3,relative_det_a,relative_b_11,relative_b_22,relative_b_33")
+        Some("segment,t,x,y,phi,q1,q2,q3,relative_det_a,relative_b_11,relative_b_22,relative_b_33,mode")
     );
-    let rows: Vec<Vec<f64>> = lines.map(|l| l.split(',').map(|x| x.parse().unwrap()).collect()).collect();
+    let rows: Vec<Vec<f64>> =
+        lines.map(|l| l.split(',').take(12).map(|x| x.parse().unwrap()).collect()).collect();
     for column in 8..12 {
         // Mode +++: B_jj > 0; det A keeps its sign.
         let values: Vec<f64> = rows.iter().map(|r| r[column].abs()).collect();
@@ -69,6 +73,102 @@ fn people_read_the_verdict() {
     let output = aspecta("check-path 3-rrr --mode +++").arg(&path).output().unwrap();
     let text = String::from_utf8(output.stdout).unwrap();
     assert!(text.contains("singularity-free  yes, certified") && text.contains("min |det A|"), "{text}");
+}
+
+/// The way back in mode ++- is refused, and where it first fails is said.
+#[test]
+fn table_4_reversed_in_another_mode_is_refused() {
+    let lines: Vec<_> = TABLE_4.lines().skip(1).collect();
+    let reversed = format!("{}\n{}\n{}\n", lines[2], lines[1], lines[0]);
+    let (document, code) = check("3-rrr", &reversed, "++-");
+    assert_eq!((&document["singularity_free"], code), (&Value::from(false), Some(1)));
+    let obstacle = &document["obstacle"];
+    assert_eq!((&obstacle["constraint"], &obstacle["segment"]), (&Value::from("Det"), &Value::from(1)));
+    let t = numbers(&obstacle["t"]);
+    assert!((t[0] - 0.9285).abs() < 1e-4 && t[1] - t[0] < 1e-9, "{obstacle}");
+    // Just before it det A is nearly nought; just after it has the other sign.
+    let pose = numbers(&obstacle["pose"]);
+    let det = |x: f64| {
+        let text = stdout(&format!(
+            "ik 3-rrr --pose {},{},{} --json",
+            pose[0] + x,
+            pose[1],
+            pose[2] - x * 0.1043834
+        ));
+        let found: Value = serde_json::from_str(&text).unwrap();
+        let all = found["solutions"].as_array().unwrap().clone();
+        all.iter().find(|s| s["mode"] == "++-").unwrap()["det_a"].as_f64().unwrap()
+    };
+    assert!(det(1e-3) * det(-1e-3) < 0.0);
+}
+
+/// What is printed of a path of poses is a path of joint vectors, and back it leads to the same.
+#[test]
+fn joint_vectors_are_checked_too() {
+    let (directory, path) = file(TABLE_4);
+    let joints = directory.path().join("joints.csv");
+    let csv = aspecta("check-path 3-rrr --mode +++ --csv").arg(&path).output().unwrap().stdout;
+    fs::write(&joints, csv).unwrap();
+    let run = |more: &str| {
+        let output = aspecta(&format!("check-path 3-rrr --json {more}")).arg(&joints).output().unwrap();
+        (output.status.code(), output.stdout, String::from_utf8_lossy(&output.stderr).into_owned())
+    };
+    for joined in ["straight", "spline"] {
+        let (code, text, complaint) = run(&format!("--start=-15.468,0.781,0.073 --joined {joined}"));
+        assert_eq!(code, Some(0), "{complaint}");
+        let document: Value = serde_json::from_slice(&text).unwrap();
+        let end = numbers(&document["end_poses"][1]);
+        assert!((end[0] + 9.902).abs() < 1e-9 && (end[2] - 1.081).abs() < 1e-9, "{end:?}");
+        let least = document["clearance"]["det_a"]["at_least"].as_f64().unwrap();
+        assert!((least / 6842.26 - 1.0).abs() < 1e-4, "{least}");
+    }
+    let (code, _, complaint) = run("--joints");
+    assert!(
+        code == Some(2) && complaint.contains("mode +++, pose -15.468000,0.781000,0.073000"),
+        "{complaint}"
+    );
+    assert!(complaint.contains("--start"), "{complaint}");
+    let (code, _, complaint) = run("--joints --joined none");
+    assert!(code == Some(2) && complaint.contains("--joined none"), "{complaint}");
+}
+
+/// A spline through the same samples swings further out; samples alone claim nothing of what lies between.
+#[test]
+fn what_joins_the_samples_is_said() {
+    let (_directory, path) = file(TABLE_4);
+    let run = |more: &str| {
+        let output = aspecta(&format!("check-path 3-rrr --mode +++ {more}")).arg(&path).output().unwrap();
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let spline: Value = serde_json::from_str(&run("--joined spline --json")).unwrap();
+    let least = spline["clearance"]["det_a"]["at_most"].as_f64().unwrap();
+    assert!(spline["singularity_free"] == true && least < 5000.0, "{least}");
+    assert!(run("--joined none").contains("nothing is claimed of what lies between"));
+}
+
+/// `--avoid`: margins that the path keeps, and margins that it does not.
+#[test]
+fn margins_are_kept_all_along_or_not() {
+    let (_directory, path) = file(TABLE_4);
+    let run = |avoid: &str| {
+        let mut command = aspecta("check-path 3-rrr --mode +++ --avoid");
+        let output = command.arg(avoid).arg(&path).output().unwrap();
+        let text = [output.stdout, output.stderr].concat();
+        (output.status.code(), String::from_utf8(text).unwrap())
+    };
+    let (code, text) = run("0.06,0.28");
+    assert!(code == Some(0) && text.contains("keeps away        yes, certified all along"), "{text}");
+    for (avoid, what) in
+        [("0.061,0.28", "|det Â| falls below its margin"), ("0.06,0.29", "|B₁₁|/max falls below")]
+    {
+        let (code, text) = run(avoid);
+        assert!(code == Some(1) && text.contains(what), "{text}");
+        assert!(text.contains("singularity-free  yes"), "{text}");
+    }
+    for bad in ["x", "0.1,0.2,0.3", "-1", "0.1,2"] {
+        let (code, text) = run(bad);
+        assert_eq!(code, Some(2), "{bad}: {text}");
+    }
 }
 
 /// The sign of det A at both ends tells that it vanishes between them.

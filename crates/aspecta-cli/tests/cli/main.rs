@@ -13,6 +13,7 @@ mod locate;
 mod people;
 mod plan;
 mod process;
+mod time;
 mod verify;
 
 use assert_cmd::Command;

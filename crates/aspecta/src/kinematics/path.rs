@@ -48,6 +48,13 @@ impl Curve {
         self.coefficients.map(|c| c[1].mid() + t * (2.0 * c[2].mid() + t * 3.0 * c[3].mid()))
     }
 
+    /// Bounds of the moduli of the second derivatives with respect to t at all t of a stretch.
+    pub fn bend(&self, stretch: Interval) -> [f64; 6] {
+        let [two, six] = [2.0, 6.0].map(Interval::point);
+        self.coefficients
+            .map(|c| if self.degree < 2 { 0.0 } else { (two * c[2] + six * c[3] * stretch).magnitude() })
+    }
+
     /// An enclosure of the poses at all t of a stretch, as a function of where in the stretch.
     pub fn over<const N: usize>(&self, stretch: Interval) -> [Slope<Interval, 1>; N] {
         let middle = Interval::point(stretch.mid());

@@ -1,4 +1,4 @@
-//! Motion: paths checked against singularities, between their samples too; paths planned; solutions followed in a control loop.
+//! Motion: paths checked against singularities, between their samples too; paths planned, and timed under joint limits; solutions followed in a control loop.
 
 pub mod assembly;
 mod check;
@@ -6,6 +6,11 @@ pub mod crossing;
 pub mod follow;
 pub mod modes;
 pub mod plan;
+mod spline;
+pub mod time;
 pub mod traverse;
 
-pub use check::{Extreme, Obstacle, PathCheck, PathError, ProfilePoint, check_path};
+pub use check::{
+    Asked, Clearance, Joined, Least, Obstacle, PathCheck, PathError, PathOptions, ProfilePoint, check_joints,
+    check_path, check_poses,
+};

@@ -3,8 +3,11 @@
 use super::crossing::{Crossing, crossings};
 use super::plan::refusal::{aspect_at, sign_at, word};
 use super::plan::{End, Plan, PlanOptions, Planner, Refusal};
+use super::time::{Piece, Waypoint};
 use crate::aspect::{Analysis, DetSign};
 use crate::kinematics::WorkingMode;
+use crate::num::without_turns;
+use crate::robot::Robot;
 use serde::Serialize;
 use std::collections::VecDeque;
 
@@ -209,7 +212,59 @@ impl Planner<'_> {
     }
 }
 
+/// Samples of a segment, and of each half of a crossing.
+const SAMPLES: usize = 100;
+
+impl Route {
+    /// The motion ready for [`trajectory`](super::time::trajectory): a piece a segment, and one for each crossing with the way there and back, on which
+    /// the joints go on smoothly while the platform turns round. Numerical: the crossing leg's joint is computed in doubles.
+    pub fn pieces(&self, robot: &Robot) -> Vec<Piece> {
+        let mut pieces = Vec::new();
+        for (k, stretch) in self.stretches.iter().enumerate() {
+            for ends in stretch.waypoints.windows(2) {
+                let segment = (0..=SAMPLES)
+                    .map(|i| (between(&ends[0], &ends[1], i as f64 / SAMPLES as f64), stretch.mode));
+                pieces.push(segment.collect());
+            }
+            if let Some(crossing) = self.crossings.get(k) {
+                pieces.push(crossing.samples(stretch.mode));
+            }
+        }
+        let mut last: Option<Vec<f64>> = None;
+        let mut piece = |samples: Vec<(Vec<f64>, WorkingMode)>| {
+            let mut waypoints = Vec::new();
+            for (pose, mode) in samples {
+                let Some(mut q) = robot.inverse_in(&pose, mode).ok().flatten() else { continue };
+                if let Some(last) = &last {
+                    let angles =
+                        q.iter_mut().zip(last).zip(&robot.legs).filter(|(_, leg)| leg.actuator.is_angle());
+                    angles.for_each(|((q, last), _)| *q = last + without_turns(*q - last));
+                }
+                last = Some(q.clone());
+                waypoints.push(Waypoint { pose, q, mode });
+            }
+            Piece { samples: waypoints }
+        };
+        pieces.into_iter().map(&mut piece).filter(|piece| piece.samples.len() > 1).collect()
+    }
+}
+
+fn between(a: &[f64], b: &[f64], t: f64) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a + t * (b - a)).collect()
+}
+
 impl Crossing {
+    /// To the singularity in `mode` and back in the other. The leg's joint goes like the root of the distance left, so its samples
+    /// are even in that root.
+    fn samples(&self, mode: WorkingMode) -> Vec<(Vec<f64>, WorkingMode)> {
+        let other = mode.with_other_posture(self.leg - 1);
+        let sample = |i: usize| {
+            let u = 1.0 - i as f64 / SAMPLES as f64;
+            (between(&self.inside, &self.pose, 1.0 - u * u), if u >= 0.0 { mode } else { other })
+        };
+        (0..=2 * SAMPLES).map(sample).collect()
+    }
+
     /// The same crossing with its angles turned by full turns so that `inside` is as given (a full turn from what it was).
     fn turned_to(&self, inside: &[f64]) -> Self {
         let moved = |pose: &[f64]| {

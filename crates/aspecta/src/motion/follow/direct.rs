@@ -111,10 +111,19 @@ impl Follower {
         check_joints(&self.robot, q)?;
         for_platform!(self.robot.platform, advance(self, q))
     }
+
+    /// What proofs look at, and the last good state.
+    pub(super) fn model_and_state<const D: usize, const N: usize>(&self) -> (Model<'_, D, N>, Located<N>) {
+        (Model::new(&self.robot, &self.unit), self.state.located())
+    }
+
+    pub(super) fn set_state<const N: usize>(&mut self, at: &Located<N>, mode: WorkingMode) {
+        self.state = State::of(at, mode);
+    }
 }
 
 /// Whether a joint vector can be used.
-fn check_joints(robot: &Robot, q: &[f64]) -> Result<(), BadInput> {
+pub(super) fn check_joints(robot: &Robot, q: &[f64]) -> Result<(), BadInput> {
     check_numbers(robot, q)?;
     match short_strut(robot, q) {
         Some(j) => Err(BadInput::StrutLength { leg: j + 1, value: q[j] }),
@@ -141,8 +150,7 @@ fn start<const D: usize, const N: usize>(
 }
 
 fn advance<const D: usize, const N: usize>(follower: &mut Follower, q: &[f64]) -> Result<Step, Refusal> {
-    let model = Model::<D, N>::new(&follower.robot, &follower.unit);
-    let start = follower.state.located::<N>();
+    let (model, start) = follower.model_and_state::<D, N>();
     let goal = unpadded::<N>(&padded(q));
     // What rounding may move the joint vectors between stretches by: at most 2.5 ε max |q|.
     let slack: [f64; N] = std::array::from_fn(|j| 4.0 * f64::EPSILON * start.q[j].abs().max(goal[j].abs()));
@@ -162,8 +170,8 @@ fn advance<const D: usize, const N: usize>(follower: &mut Follower, q: &[f64]) -
         return Err(model.refusal(&last, &start.q, &goal, proved));
     }
     let within_limits = direct::within_limits::<D>(&follower.robot, &last.pose, mode);
-    follower.state = State::of(&last, mode);
     let [length_error, angle_error] = model.errors(&last);
+    follower.state = State::of(&last, mode);
     Ok(Step {
         pose: follower.state.pose,
         dof: N,

@@ -56,12 +56,15 @@ mod direct;
 mod inverse;
 mod nearness;
 mod newton;
+mod on_the_way;
 mod refusal;
+mod survey;
 mod tube;
 
 pub use direct::{Follower, Step};
 pub use inverse::{InverseFollower, JointStep};
 pub use refusal::{BadInput, Refusal, StartError};
+pub use survey::Survey;
 
 use crate::num::padded;
 use crate::robot::Robot;

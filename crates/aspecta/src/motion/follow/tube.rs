@@ -1,11 +1,12 @@
 //! The certificate of one stretch: the theorem of [`super`], in intervals.
 
 use super::newton::Root;
+use super::on_the_way::OnTheWay;
 use super::{Padded, unpadded};
 use crate::kinematics::leg::equation_turned;
 use crate::kinematics::placement::{Placement, displacement_row, leg_gradient_turned, wrench};
 use crate::num::{Ball, Interval, Scalar, Slope, dot, each};
-use crate::robot::Robot;
+use crate::robot::{Leg, Robot};
 use nalgebra::SMatrix;
 
 /// (sin, cos) of an angle.
@@ -32,7 +33,7 @@ pub(super) struct Located<const N: usize> {
 }
 
 /// What a stretch is judged by, as the theorem of [`super`] names it.
-struct Stretch<'a, const D: usize, const N: usize> {
+pub(super) struct Stretch<'a, const D: usize, const N: usize> {
     /// The placement of X₁, about which z is counted.
     at: Placement<Ball, D>,
     q: [f64; N],
@@ -72,75 +73,38 @@ impl<'a, const D: usize, const N: usize> Stretch<'a, D, N> {
         let off: [Ball; N] = each!(|j| Ball::about_zero(slack[j]));
         Self { at, q: *q, turns, y, f, miss, known, s, back, off, room }
     }
-}
 
-/// A scalar that encloses a function over the tube.
-trait OnTheWay: Scalar {
-    /// A number that is the same all along.
-    fn fixed(x: Ball) -> Self;
-
-    /// (1 − t) `back` + `noise`.
-    fn on_the_way(back: Ball, noise: Ball) -> Self;
-
-    /// All values.
-    fn range(self) -> Ball;
-
-    /// The integral over [t, 1], for every t.
-    fn so_far(self) -> Ball;
-
-    /// (sin, cos) of a small angle.
-    fn small_sin_cos(self) -> (Self, Self);
-}
-
-/// What does not know where on the way it is.
-impl OnTheWay for Ball {
-    #[inline(always)]
-    fn fixed(x: Ball) -> Self {
-        x
-    }
-    #[inline(always)]
-    fn on_the_way(back: Ball, noise: Ball) -> Self {
-        back.towards_zero() + noise
-    }
-    #[inline(always)]
-    fn range(self) -> Ball {
-        self
-    }
-    #[inline(always)]
-    fn so_far(self) -> Ball {
-        self.towards_zero()
-    }
-    #[inline(always)]
-    fn small_sin_cos(self) -> (Self, Self) {
-        Ball::small_sin_cos(self)
+    /// A leg over the tube, whose placements are `placement`.
+    #[inline]
+    pub fn leg<T: OnTheWay>(&self, leg: &Leg, j: usize, placement: &Placement<T, D>) -> LegOver<T, D> {
+        let arm = placement.arm(leg);
+        let span = placement.span(leg, &arm);
+        let over = T::on_the_way(self.back[j], self.off[j]);
+        let q = T::fixed(Ball::point(self.q[j])) + over;
+        let mut turn = None;
+        // The addition theorems.
+        let turned = || {
+            let (sin, cos) = (T::fixed(self.turns[j].0), T::fixed(self.turns[j].1));
+            let (s, c) = over.small_sin_cos();
+            *turn.insert((sin * c + cos * s, cos * c - sin * s))
+        };
+        let (_, gradient, slope) = leg_gradient_turned(leg, &span, q, turned);
+        LegOver { arm, span, turn, gradient, slope }
     }
 }
 
-/// What does: linear in t, with a remainder.
-impl OnTheWay for Slope<Ball, 1> {
-    fn fixed(x: Ball) -> Self {
-        Self { range: x, centre: x, slope: [ZERO] }
-    }
-    fn on_the_way(back: Ball, noise: Ball) -> Self {
-        let half = back * Ball::point(0.5);
-        Self { range: back.towards_zero() + noise, centre: half + noise, slope: [half] }
-    }
-    fn range(self) -> Ball {
-        self.tightened().range
-    }
-    /// With τ = 1 − 2t' the function is g + m τ + r(τ) τ, |r(τ)| ≤ rad. Over [t, 1] g gives (1 − t) g, m τ gives m t (1 − t), at most
-    /// a quarter of m, and the rest at most rad ∫|τ| dt' = rad / 2.
-    fn so_far(self) -> Ball {
-        let m = self.slope[0];
-        let bound = Ball::about_zero(0.25 * m.mid.abs()) + Ball::about_zero(0.5 * m.rad);
-        (self.centre.towards_zero() + bound).narrower(self.range().towards_zero())
-    }
-    fn small_sin_cos(self) -> (Self, Self) {
-        let (sin, cos) = self.range.small_sin_cos();
-        let (sin_c, cos_c) = self.centre.small_sin_cos();
-        // By the mean-value theorem the quotients lie in the range of the derivative.
-        (self.chain(sin, sin_c, cos), self.chain(cos, cos_c, -sin))
-    }
+/// One leg over a tube.
+pub(super) struct LegOver<T, const D: usize> {
+    /// r = R c, base frame.
+    pub arm: [T; D],
+    /// d = C − A, leg frame.
+    pub span: [T; D],
+    /// (sin q, cos q), if q is an angle.
+    pub turn: Option<Turn<T>>,
+    /// ∂f/∂C, base frame.
+    pub gradient: [T; D],
+    /// B_jj.
+    pub slope: T,
 }
 
 /// What was proved of a stretch.
@@ -166,6 +130,17 @@ impl<'a, const D: usize, const N: usize> Model<'a, D, N> {
     /// The same at several times the cost, for longer stretches: enclosures know where on the way they are, and the
     /// solution halfway gives Y and the width of the tube.
     pub fn prove_carefully(&self, start: &Located<N>, q: &[f64; N], slack: &[f64; N]) -> Option<Proof<N>> {
+        self.prove_and_look(start, q, slack, |_| ()).map(|(proof, ())| proof)
+    }
+
+    /// [`Model::prove_carefully`], and then what `look` makes of the stretch that was proved.
+    pub fn prove_and_look<R>(
+        &self,
+        start: &Located<N>,
+        q: &[f64; N],
+        slack: &[f64; N],
+        look: impl FnOnce(&Stretch<'_, D, N>) -> R,
+    ) -> Option<(Proof<N>, R)> {
         let turns = self.turns(q);
         let root = self.newton(&start.pose, &start.inverse, q, &plain(&turns))?;
         let mut stretch = Stretch::moving(self, start, &root, q, &turns, slack);
@@ -176,12 +151,11 @@ impl<'a, const D: usize, const N: usize> Model<'a, D, N> {
         stretch.room += 3.0 * self.size(&sag) - 0.25 * self.size(&stretch.s);
         stretch.y = rows(&inverse);
         stretch.miss = each!(|i| dot(&stretch.y[i], &stretch.f));
-        self.certify::<Slope<Ball, 1>>(&stretch, &root)
-            .or_else(|needed| {
-                stretch.room = 1.5 * needed;
-                self.certify::<Slope<Ball, 1>>(&stretch, &root)
-            })
-            .ok()
+        let proof = self.certify::<Slope<Ball, 1>>(&stretch, &root).or_else(|needed| {
+            stretch.room = 1.5 * needed;
+            self.certify::<Slope<Ball, 1>>(&stretch, &root)
+        });
+        proof.ok().map(|proof| (proof, look(&stretch)))
     }
 
     /// Proves that the solution for `guess.q` near `guess.pose` is the only one in a ball that holds both.
@@ -255,30 +229,25 @@ impl<'a, const D: usize, const N: usize> Model<'a, D, N> {
     /// \[A\] and \[b\]: ∂f/∂z and ∂f/∂q over the tube.
     fn derivatives<T: OnTheWay>(&self, stretch: &Stretch<'_, D, N>) -> ([[T; N]; N], [T; N]) {
         let platform = self.robot.platform;
+        let (placement, turn) = self.placements(stretch);
+        let (mut a, mut b) = ([[T::zero(); N]; N], [T::zero(); N]);
+        for (j, leg) in self.robot.legs.iter().enumerate().take(N) {
+            let over = stretch.leg(leg, j, &placement);
+            a[j] = displacement_row(platform, &wrench(platform, &over.gradient, &over.arm), &turn);
+            b[j] = over.slope;
+        }
+        (a, b)
+    }
+
+    /// The placements of the tube, and (sin, cos) of the angles of z.
+    pub fn placements<T: OnTheWay>(&self, stretch: &Stretch<'_, D, N>) -> (Placement<T, D>, [Turn<T>; N]) {
         let noise: [Ball; N] = each!(|k| Ball::point(self.unit[k]) * Ball::about_zero(stretch.room));
         let z: [T; N] = each!(|k| T::on_the_way(stretch.s[k], noise[k]));
         let mut turn = [(T::zero(), T::zero()); N];
         for k in 0..N {
             turn[k] = z[k].small_sin_cos();
         }
-        let placement = stretch.at.map(T::fixed).displaced(platform, &z, &turn);
-        let (mut a, mut b) = ([[T::zero(); N]; N], [T::zero(); N]);
-        for (j, leg) in self.robot.legs.iter().enumerate().take(N) {
-            let arm = placement.arm(leg);
-            let span = placement.span(leg, &arm);
-            let over = T::on_the_way(stretch.back[j], stretch.off[j]);
-            let q = T::fixed(Ball::point(stretch.q[j])) + over;
-            // The addition theorems.
-            let turned = || {
-                let (sin, cos) = (T::fixed(stretch.turns[j].0), T::fixed(stretch.turns[j].1));
-                let (s, c) = over.small_sin_cos();
-                (sin * c + cos * s, cos * c - sin * s)
-            };
-            let (_, gradient, slope) = leg_gradient_turned(leg, &span, q, turned);
-            a[j] = displacement_row(platform, &wrench(platform, &gradient, &arm), &turn);
-            b[j] = slope;
-        }
-        (a, b)
+        (stretch.at.map(T::fixed).displaced(self.robot.platform, &z, &turn), turn)
     }
 
     /// The placement of a pose.

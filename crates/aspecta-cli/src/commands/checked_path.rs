@@ -1,0 +1,115 @@
+//! The path that `check-path` and `time` are given, checked.
+
+use crate::failure::Failure;
+use crate::input::{self, Columns};
+use aspecta::kinematics::demand::Margins;
+use aspecta::motion::{Joined, PathCheck, PathError, PathOptions, check_joints, check_poses};
+use aspecta::robot::Robot;
+use clap::{Args, ValueEnum};
+
+/// Which path, and what is asked of it.
+#[derive(Args)]
+pub struct PathArgs {
+    /// Name from `aspecta robots`, or path of a robot file
+    robot: String,
+    /// A CSV file of poses or joint vectors, one a line; `-` reads stdin
+    path: String,
+    #[command(flatten)]
+    from: From,
+    /// What joins the lines: straight segments, a smooth spline, or nothing (then nothing is claimed between)
+    #[arg(long, value_enum, default_value = "straight")]
+    joined: How,
+    /// Stay away from singularities: |det Â| at least M and every |B_jj|/max at least N (or M)
+    #[arg(long, value_name = "M[,N]", allow_hyphen_values = true)]
+    avoid: Option<String>,
+    /// Angles of the input and of what people read are in degrees
+    #[arg(long)]
+    pub deg: bool,
+}
+
+/// Where the path is.
+#[derive(Args)]
+#[group(required = true, multiple = true)]
+struct From {
+    /// The lines are poses: the working mode the robot stays in, such as `+-+`
+    #[arg(long, allow_hyphen_values = true, conflicts_with_all = ["joints", "start"])]
+    mode: Option<String>,
+    /// The lines are joint vectors
+    #[arg(long)]
+    joints: bool,
+    /// The lines are joint vectors: the pose that the first one means, at least roughly (not needed if it has one only)
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
+    start: Option<String>,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum How {
+    Straight,
+    Spline,
+    None,
+}
+
+impl PathArgs {
+    /// Reads the path and checks it: the robot, how many lines there are, and what was found.
+    pub fn check(&self) -> Result<(Robot, usize, PathCheck), Failure> {
+        let robot = input::robot(&self.robot)?;
+        let options = PathOptions { joined: self.joined(), margins: self.margins()? };
+        let mode = self.from.mode.as_deref().map(|m| input::mode(&robot, m)).transpose()?;
+        let (pose, joints) = (Columns::pose(&robot), Columns::joints(&robot));
+        let start =
+            self.from.start.as_deref().map(|s| input::list("--start", s, &pose, self.deg)).transpose()?;
+        let layout = [if mode.is_some() { pose } else { joints }];
+        let rows = input::rows(&self.path, &layout, self.deg)?;
+        let lines: Vec<_> = rows.into_iter().map(|row| row.values).collect();
+        let check = match mode {
+            Some(mode) => check_poses(&robot, &lines, mode, &options)?,
+            None => check_joints(&robot, &lines, start.as_deref(), &options).map_err(with_advice)?,
+        };
+        Ok((robot, lines.len(), check))
+    }
+
+    /// Whether the lines are joint vectors.
+    pub fn is_of_joints(&self) -> bool {
+        self.from.mode.is_none()
+    }
+
+    pub fn joined(&self) -> Joined {
+        match self.joined {
+            How::Straight => Joined::Straight,
+            How::Spline => Joined::Spline,
+            How::None => Joined::None,
+        }
+    }
+
+    /// What the path is, in words: `3 poses joined by straight segments`.
+    pub fn describe(&self, lines: usize) -> String {
+        let what = if self.is_of_joints() { "joint vectors" } else { "poses" };
+        match self.joined {
+            How::Straight => format!("{lines} {what} joined by straight segments"),
+            How::Spline => format!("{lines} {what} joined by a spline"),
+            How::None => format!("{lines} {what}, each by itself: nothing is claimed of what lies between"),
+        }
+    }
+
+    fn margins(&self) -> Result<Margins, Failure> {
+        let Some(text) = &self.avoid else { return Ok(Margins::default()) };
+        let numbers: Option<Vec<f64>> = text.split(',').map(|x| x.trim().parse().ok()).collect();
+        match numbers.as_deref() {
+            Some([both]) => Ok(Margins { parallel: *both, serial: *both }),
+            Some([parallel, serial]) => Ok(Margins { parallel: *parallel, serial: *serial }),
+            _ => Err(Failure::Input(format!(
+                "--avoid: `{text}` is not a number, nor two separated by a comma"
+            ))),
+        }
+    }
+}
+
+fn with_advice(error: PathError) -> Failure {
+    match error {
+        PathError::WhichSolution { .. } | PathError::NoDirectModel(_) => {
+            Failure::Input(format!("{error}\ngive it with --start"))
+        }
+        PathError::Unjoined => Failure::Input(format!("--joined none: {error}")),
+        _ => error.into(),
+    }
+}

@@ -1,0 +1,158 @@
+//! `aspecta time`: a path as a motion under joint speed and acceleration limits.
+
+use super::checked_path::PathArgs;
+use super::path_verdict::describe;
+use super::queries::Labels;
+use super::timing;
+use crate::failure::{Answer, Failure};
+use crate::output::{FORMAT_VERSION, Format, FormatArgs, json, note, number};
+use aspecta::motion::time::{Binding, JointLimits, Limited, Row, Trajectory, trajectory};
+use aspecta::motion::{Joined, Obstacle, PathCheck};
+use aspecta::robot::Robot;
+use clap::Args;
+use serde::Serialize;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// Arguments of `time`.
+#[derive(Args)]
+#[command(after_help = "\
+The path is checked first, as `aspecta check-path` does, and refused (exit status 1) unless it is proved to be sound. Then every joint moves \
+as fast as its speed and acceleration allow, from rest to rest: the robot stops at each line of a path of straight segments, \
+and goes through those of a spline. Limits are in the units of the joints, per second and per second squared; with --deg those of angles are in degrees.\n\
+Timing is numerical. Limits hold at every time; the whole is the fastest but for about one part in a thousand.\n\n\
+  aspecta time 3-rrr path.csv --mode +++ --speed 2 --acceleration 10 --rate 500 --out motion.csv\n\
+  aspecta time five-bar joints.csv --start 4,7 --joined spline --speed 1,1.5 --acceleration 4")]
+pub struct Time {
+    #[command(flatten)]
+    path: PathArgs,
+    /// The greatest speed of the joints: one number for all, or one a joint
+    #[arg(long, value_name = "V[,V…]")]
+    speed: String,
+    /// The greatest acceleration of the joints: one number for all, or one a joint
+    #[arg(long, value_name = "A[,A…]")]
+    acceleration: String,
+    /// Rows a second
+    #[arg(long, value_name = "HZ", default_value_t = 100.0)]
+    rate: f64,
+    /// Write the motion to this CSV file
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    format: FormatArgs,
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    format_version: u32,
+    robot: &'a str,
+    mode: String,
+    sound: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    obstacle: Option<&'a Obstacle>,
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    motion: Option<Motion<'a>>,
+}
+
+#[derive(Serialize)]
+struct Motion<'a> {
+    total_time: f64,
+    speed: &'a [f64],
+    acceleration: &'a [f64],
+    bindings: Vec<Binding>,
+    path_error: &'a [f64],
+    rows: Vec<Row>,
+}
+
+impl Time {
+    pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
+        timing::check_rate(self.rate)?;
+        if self.path.joined() == Joined::None {
+            return Err(Failure::Input(
+                "--joined none: a motion needs to know what lies between the lines".into(),
+            ));
+        }
+        let (robot, lines, check) = self.path.check()?;
+        let limits = timing::limits(&robot, &self.speed, &self.acceleration, self.path.deg)?;
+        if !check.is_sound() {
+            return self.refuse(out, &robot, &check);
+        }
+        let motion = trajectory(&check.pieces(), &limits)?;
+        timing::check_length(&motion, self.rate)?;
+        let write = |path: &Path| timing::write("--out", path, &robot, &motion, self.rate);
+        let written = self.out.as_deref().map(write).transpose()?;
+        match self.format.format() {
+            Format::Json => json(out, &self.document(&robot, &check, Some((&motion, &limits))))?,
+            Format::Csv => timing::rows(out, &robot, &motion, self.rate)?,
+            Format::Table => self.summary(out, &robot, &check, &motion, lines)?,
+        }
+        if let Some(written) = written {
+            match self.format.format() {
+                Format::Table => writeln!(out, "{written}")?,
+                Format::Json | Format::Csv => note(&written),
+            }
+        }
+        Ok(Answer::Yes)
+    }
+
+    fn refuse(&self, out: &mut dyn Write, robot: &Robot, check: &PathCheck) -> Result<Answer, Failure> {
+        if self.format.format() == Format::Json {
+            json(out, &self.document(robot, check, None))?;
+        }
+        let why =
+            check.obstacle.as_ref().map_or(String::new(), |o| format!(": {}", describe(o, check.joined)));
+        note(&format!("the path is not proved to be sound{why}\n`aspecta check-path` says more"));
+        Ok(Answer::No)
+    }
+
+    fn document<'a>(
+        &self,
+        robot: &'a Robot,
+        check: &'a PathCheck,
+        motion: Option<(&'a Trajectory, &'a JointLimits)>,
+    ) -> Document<'a> {
+        let motion = motion.map(|(motion, limits)| Motion {
+            total_time: motion.total_time(),
+            speed: &limits.speed,
+            acceleration: &limits.acceleration,
+            bindings: motion.bindings(),
+            path_error: motion.path_error(),
+            rows: motion.rows(self.rate).collect(),
+        });
+        Document {
+            format_version: FORMAT_VERSION,
+            robot: &robot.name,
+            mode: check.mode.to_string(),
+            sound: check.is_sound(),
+            obstacle: check.obstacle.as_ref(),
+            motion,
+        }
+    }
+
+    fn summary(
+        &self,
+        out: &mut dyn Write,
+        robot: &Robot,
+        check: &PathCheck,
+        motion: &Trajectory,
+        lines: usize,
+    ) -> Result<(), Failure> {
+        let joints = Labels::joints(robot, self.path.deg);
+        writeln!(out, "{}, working mode {}, {}", robot.name, check.mode, self.path.describe(lines))?;
+        writeln!(out, "sound             yes, certified")?;
+        let stops = check.pieces().len();
+        let rests = if stops == 1 { "from rest to rest" } else { "from rest to rest on each segment" };
+        writeln!(out, "total time        {} s, {rests}", number(motion.total_time()))?;
+        for (k, binding) in motion.bindings().iter().take(3).enumerate() {
+            let what = match binding.limit {
+                Limited::Speed => "speed",
+                Limited::Acceleration => "acceleration",
+            };
+            let share = 100.0 * binding.share;
+            let name = if k == 0 { "what limits it" } else { "" };
+            writeln!(out, "{name:<18}the {what} of joint {}, {share:.0} % of the time", binding.joint)?;
+        }
+        writeln!(out, "strays by about   {}", joints.sentence(motion.path_error()))?;
+        Ok(())
+    }
+}
