@@ -21,10 +21,12 @@ pub fn robots() -> impl Iterator<Item = Robot> {
     catalogue::all().iter().map(|entry| robot(entry.name))
 }
 
+/// A working mode by its name.
 pub fn mode(name: &str) -> WorkingMode {
     name.parse().unwrap()
 }
 
+/// Samples joined in this way, and nothing else asked.
 pub fn options(joined: Joined) -> PathOptions {
     PathOptions { joined, ..PathOptions::default() }
 }

@@ -115,7 +115,7 @@ fn check_limits(limits: &JointLimits, joints: usize) -> Result<(), TimeError> {
 }
 
 impl PathCheck {
-    /// The path as far as it was followed, ready for [`trajectory`]: one piece a straight segment, one for a spline.
+    /// The path as far as it was followed, ready for [`trajectory()`]: one piece a straight segment, one for a spline.
     pub fn pieces(&self) -> Vec<Piece> {
         let together = self.joined == Joined::Spline;
         let segments = self.profile.chunk_by(|a, b| together || a.segment == b.segment);
