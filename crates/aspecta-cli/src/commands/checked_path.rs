@@ -1,8 +1,8 @@
 //! The path that `check-path` and `time` are given, checked.
 
+use super::away::Away;
 use crate::failure::Failure;
 use crate::input::{self, Columns};
-use aspecta::kinematics::demand::Margins;
 use aspecta::motion::{Joined, PathCheck, PathError, PathOptions, check_joints, check_poses};
 use aspecta::robot::Robot;
 use clap::{Args, ValueEnum};
@@ -19,9 +19,8 @@ pub struct PathArgs {
     /// What joins the lines: straight segments, a smooth spline, or nothing (then nothing is claimed between)
     #[arg(long, value_enum, default_value = "straight")]
     joined: How,
-    /// Stay away from singularities: |det Â| at least M and every |B_jj|/max at least N (or M)
-    #[arg(long, value_name = "M[,N]", allow_hyphen_values = true)]
-    avoid: Option<String>,
+    #[command(flatten)]
+    away: Away,
     /// Angles of the input and of what people read are in degrees
     #[arg(long)]
     pub deg: bool,
@@ -53,7 +52,7 @@ impl PathArgs {
     /// Reads the path and checks it: the robot, how many lines there are, and what was found.
     pub fn check(&self) -> Result<(Robot, usize, PathCheck), Failure> {
         let robot = input::robot(&self.robot)?;
-        let options = PathOptions { joined: self.joined(), margins: self.margins()? };
+        let options = PathOptions { joined: self.joined(), margins: self.away.margins()? };
         let mode = self.from.mode.as_deref().map(|m| input::mode(&robot, m)).transpose()?;
         let (pose, joints) = (Columns::pose(&robot), Columns::joints(&robot));
         let start =
@@ -88,18 +87,6 @@ impl PathArgs {
             How::Straight => format!("{lines} {what} joined by straight segments"),
             How::Spline => format!("{lines} {what} joined by a spline"),
             How::None => format!("{lines} {what}, each by itself: nothing is claimed of what lies between"),
-        }
-    }
-
-    fn margins(&self) -> Result<Margins, Failure> {
-        let Some(text) = &self.avoid else { return Ok(Margins::default()) };
-        let numbers: Option<Vec<f64>> = text.split(',').map(|x| x.trim().parse().ok()).collect();
-        match numbers.as_deref() {
-            Some([both]) => Ok(Margins { parallel: *both, serial: *both }),
-            Some([parallel, serial]) => Ok(Margins { parallel: *parallel, serial: *serial }),
-            _ => Err(Failure::Input(format!(
-                "--avoid: `{text}` is not a number, nor two separated by a comma"
-            ))),
         }
     }
 }

@@ -2,6 +2,7 @@
 
 mod analyze;
 mod assembly;
+mod away;
 mod budget;
 mod check;
 mod check_path;

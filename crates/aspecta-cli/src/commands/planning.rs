@@ -1,5 +1,6 @@
 //! What the commands that plan motions share: the analysis they plan over, and how plans are shown.
 
+use super::away::Away;
 use super::budget;
 use super::path_verdict::bounds;
 use super::queries::{Labels, det_a_unit};
@@ -9,7 +10,6 @@ use crate::failure::{Answer, Failure};
 use crate::output::{Align, FORMAT_VERSION, Format, ShownArgs, Table, brief, exact, json, note};
 use aspecta::aspect::{Analysis, Options, analyze};
 use aspecta::kinematics::WorkingMode;
-use aspecta::kinematics::demand::Margins;
 use aspecta::motion::modes::{NoRoute, Route};
 use aspecta::motion::plan::{Plan, PlanOptions};
 use aspecta::motion::time::trajectory;
@@ -57,9 +57,8 @@ pub struct Wishes {
     /// |B_jj|/max. 0: the shortest path; 8: as good as only the least clearance
     #[arg(long, value_name = "W", default_value_t = 1.0, allow_negative_numbers = true)]
     weight: f64,
-    /// Keep at least this far from singularities all along, proved: the normalised |det A|, or that and the |B_jj|/max, each from 0 to 1
-    #[arg(long, value_name = "M[,N]")]
-    avoid: Option<String>,
+    #[command(flatten)]
+    away: Away,
 }
 
 impl Wishes {
@@ -68,24 +67,7 @@ impl Wishes {
         if !(self.weight >= 0.0 && self.weight <= 64.0) {
             return Err(Failure::Input(format!("--weight {}: give a number from 0 to 64", self.weight)));
         }
-        let wrong = |text: &str| {
-            Failure::Input(format!(
-                "--avoid `{text}`: give one number from 0 to 1, or two separated by a comma"
-            ))
-        };
-        let mut margins = [0.0; 2];
-        if let Some(text) = &self.avoid {
-            let parts: Vec<&str> = text.split(',').map(str::trim).collect();
-            if parts.len() > 2 {
-                return Err(wrong(text));
-            }
-            for (margin, part) in margins.iter_mut().zip(parts) {
-                let value = part.parse::<f64>().ok().filter(|x| (0.0..1.0).contains(x));
-                *margin = value.ok_or_else(|| wrong(text))?;
-            }
-        }
-        let [parallel, serial] = margins;
-        Ok(PlanOptions { weight: self.weight, margins: Margins { parallel, serial } })
+        Ok(PlanOptions { weight: self.weight, margins: self.away.margins()? })
     }
 }
 

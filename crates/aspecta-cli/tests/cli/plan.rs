@@ -43,6 +43,20 @@ fn a_plan_goes_through_three_modes() {
     assert!(plan["stretches"].as_array().unwrap().len() >= 3, "{plan}");
 }
 
+/// The table of a motion: its header, and rows that belong together.
+#[test]
+fn a_plan_is_written_as_a_motion() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("motion.csv");
+    let arguments = "plan five-bar --from 4,7 --to 4,7 --mode ++ --to-mode -- --budget depth=9 --speed 2 --acceleration 8 --trajectory";
+    let shown = aspecta(arguments).arg(&path).output().unwrap();
+    assert!(text(&shown.stdout).contains("total time: "), "{}", text(&shown.stderr));
+    let motion = fs::read_to_string(&path).unwrap();
+    assert!(motion.starts_with("time,x,y,q1,q2,v1,v2,a1,a2\n0.0,4.0,7.0,"), "{motion}");
+    let alone = output("plan five-bar --from 4,7 --to 4,7 --mode ++ --trajectory motion.csv");
+    assert_eq!(alone.status.code(), Some(2));
+}
+
 #[test]
 fn assembly_modes_are_listed_by_aspect() {
     let shown = stdout("assembly 3-rpr --q 14.98,15.38,12 --budget depth=6");
@@ -89,7 +103,7 @@ fn mistakes_are_named() {
         ("plan five-bar --from 4,7 --to 5 --mode +-", "has 2 pose coordinates (x, y), but 1 were given"),
         ("plan five-bar --from 4,7 --to 5,a --mode +-", "`a`, is not a number"),
         ("plan five-bar --from 4,7 --to 5,6 --mode +", "`+` is not a working mode of `five-bar`"),
-        ("plan five-bar --from 4,7 --to 5,6 --mode +- --avoid 2", "--avoid `2`: give one number from 0 to 1"),
+        ("plan five-bar --from 4,7 --to 5,6 --mode +- --avoid 2", "--avoid: `2` is not a number from 0 to 1"),
         ("plan five-bar --from 4,7 --to 5,6 --mode +- --weight -1", "--weight"),
         ("plan hexa --from 0,0,-600,0,0,0 --to 0,0,-600,0,0,0 --mode ------", "6 degrees of freedom"),
         ("assembly 3-rpr --q 14.98,15.38,12 --from 1 --to 9", "has 6 direct solutions"),

@@ -6,7 +6,7 @@
 //! every crossing: aspects of different signs are never joined so.
 
 use crate::aspect::{Analysis, DetSign, Place};
-use crate::kinematics::demand::{Demand, measures};
+use crate::kinematics::demand::{Demand, Margins, measures};
 use crate::kinematics::modal::closures;
 use crate::kinematics::path::{Along, Curve, along};
 use crate::kinematics::placement::Placement;
@@ -68,10 +68,10 @@ pub fn crossings(analysis: &Analysis) -> Vec<Crossing> {
 
 impl Crossing {
     /// Whether intervals prove it: from `inside` towards `beyond` det A keeps its sign, and limits are kept, in both postures of the leg, until
-    /// it comes to its serial singularity ([`along`]).
-    pub fn is_proved(&self, robot: &Robot) -> bool {
+    /// it comes to its serial singularity ([`along`]); and the margins, but for that leg's own.
+    pub fn is_proved(&self, robot: &Robot, margins: Margins) -> bool {
         let class = Demand::class(self.modes[0], self.det_a.factor());
-        let demand = Demand { crossing: Some(self.leg - 1), ..class };
+        let demand = Demand { crossing: Some(self.leg - 1), margins, ..class };
         let way = Curve::segment(&self.inside, &self.beyond);
         matches!(along(robot, &demand, &way, EFFORT), Along::Crossed { .. })
     }
@@ -216,7 +216,8 @@ impl Side<'_> {
             beyond: beyond.to_vec(),
             clearance: at.clearance,
         };
-        (in_window(&inside) && in_window(&at.pose) && crossing.is_proved(self.robot())).then_some(crossing)
+        (in_window(&inside) && in_window(&at.pose) && crossing.is_proved(self.robot(), Margins::default()))
+            .then_some(crossing)
     }
 
     /// A crossing with more clearance next to a proved one, as far as small steps lead there.

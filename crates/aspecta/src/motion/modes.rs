@@ -6,6 +6,7 @@ use super::plan::{End, Plan, PlanOptions, Planner, Refusal};
 use super::time::{Piece, Waypoint};
 use crate::aspect::{Analysis, DetSign};
 use crate::kinematics::WorkingMode;
+use crate::kinematics::demand::Margins;
 use crate::num::without_turns;
 use crate::robot::Robot;
 use serde::Serialize;
@@ -70,6 +71,11 @@ impl ModeGraph {
 
     /// The crossings (by index) from an aspect to another: as few as possible, and of those ways the one whose least clearance is greatest.
     pub fn way(&self, from: usize, to: usize) -> Option<Vec<usize>> {
+        self.way_over(from, to, |_| true)
+    }
+
+    /// [`ModeGraph::way`] over some crossings only.
+    fn way_over(&self, from: usize, to: usize, is_open: impl Fn(&Crossing) -> bool) -> Option<Vec<usize>> {
         // Per aspect: how many crossings away, the least clearance on the way, and the last crossing.
         let mut best: Vec<Option<(usize, f64, usize)>> =
             vec![None; self.aspects.iter().map(|a| a.id + 1).max()?];
@@ -78,7 +84,7 @@ impl ModeGraph {
         while let Some(here) = open.pop_front() {
             let Some((count, least, _)) = best[here] else { continue };
             for (k, crossing) in self.crossings.iter().enumerate() {
-                let Some(there) = crossing.other_side(here) else { continue };
+                let Some(there) = crossing.other_side(here).filter(|_| is_open(crossing)) else { continue };
                 let least = least.min(crossing.clearance);
                 let better = best[there].is_none_or(|(n, c, _)| n > count + 1 || n == count + 1 && c < least);
                 if better {
@@ -137,14 +143,22 @@ pub enum NoRoute {
     Unknown(End),
     /// No crossings lead there.
     #[error(
-        "undecided: no way through changes of working mode was found from aspect {start} to aspect {goal}, and none is excluded"
+        "undecided: no way through changes of working mode was found from aspect {start} to aspect {goal}{}, and none is excluded",
+        if *.margins == Margins::default() { "" } else { " with these margins" }
     )]
     NotFound {
         /// The [`crate::aspect::Aspect::id`] of the start.
         start: usize,
         /// That of the goal.
         goal: usize,
+        /// The margins asked for.
+        margins: Margins,
     },
+    /// Legs would come nearer to their serial singularities than they may.
+    #[error(
+        "the way leads through serial singularities, which a margin of |B_jj|/max forbids: ask for none (--avoid M,0)"
+    )]
+    SerialMargin,
 }
 
 impl NoRoute {
@@ -158,7 +172,7 @@ impl NoRoute {
         match self {
             Self::Plan(refusal) => refusal.is_proof(),
             Self::OppositeSigns(_) => true,
-            Self::Unknown(_) | Self::NotFound { .. } => false,
+            Self::Unknown(_) | Self::NotFound { .. } | Self::SerialMargin => false,
         }
     }
 }
@@ -177,7 +191,17 @@ impl Planner<'_> {
         options: &PlanOptions,
     ) -> Result<Route, NoRoute> {
         let [from, to] = self.aspects_of(start, goal)?;
-        let way = graph.way(from, to).ok_or(NoRoute::NotFound { start: from, goal: to })?;
+        let robot = &self.analysis().robot;
+        let margins = options.margins;
+        let open: Vec<bool> =
+            graph.crossings.iter().map(|crossing| crossing.is_proved(robot, margins)).collect();
+        let is_open =
+            |crossing: &Crossing| graph.crossings.iter().zip(&open).any(|(c, open)| *open && c == crossing);
+        let way =
+            graph.way_over(from, to, is_open).ok_or(NoRoute::NotFound { start: from, goal: to, margins })?;
+        if !way.is_empty() && margins.serial > 0.0 {
+            return Err(NoRoute::SerialMargin);
+        }
         let (mut here, mut at) = (start.pose.to_vec(), start.mode);
         let mut route = Route { stretches: Vec::new(), crossings: Vec::new() };
         for crossing in way.into_iter().map(|k| &graph.crossings[k]) {
@@ -186,7 +210,7 @@ impl Planner<'_> {
             // Angles go on where the plan has brought them.
             here = plan.waypoints[plan.waypoints.len() - 1].clone();
             let crossing = crossing.turned_to(&here);
-            if !crossing.is_proved(&self.analysis().robot) {
+            if !crossing.is_proved(&self.analysis().robot, margins) {
                 return Err(Refusal::Unproved { pose: here }.into());
             }
             route.crossings.push(crossing);

@@ -2,8 +2,10 @@
 
 use super::*;
 use aspecta::aspect::DetSign;
+use aspecta::kinematics::demand::Margins;
 use aspecta::motion::modes::{Configuration, ModeGraph, NoRoute};
 use aspecta::motion::plan::{PlanOptions, Planner};
+use aspecta::motion::time::{JointLimits, trajectory};
 
 /// det A with leg `leg` (from 1) in the posture of `mode`.
 fn det(robot: &Robot, pose: &[f64], mode: WorkingMode) -> Option<f64> {
@@ -23,7 +25,7 @@ fn the_five_bars_ten_aspects_are_two_sets_of_five() {
     assert_eq!(signs(&graph.groups[0]), [DetSign::Positive; 5]);
     assert_eq!(signs(&graph.groups[1]), [DetSign::Negative; 5]);
     for crossing in &graph.crossings {
-        assert!(crossing.is_proved(&robot));
+        assert!(crossing.is_proved(&robot, Margins::default()));
         // At the crossing the leg is stretched or folded: its two postures are one.
         let leg = &robot.leg_solutions(&crossing.pose).unwrap()[crossing.leg - 1];
         assert!(leg.reach.abs() < 1e-9, "{crossing:?}");
@@ -71,7 +73,7 @@ fn a_planted_fault_is_not_proved() {
         let mut out_of_reach = crossing.clone();
         out_of_reach.inside.clone_from(&crossing.beyond);
         for fault in [wrong_sign, wrong_leg, too_short, out_of_reach] {
-            assert!(!fault.is_proved(&robot), "{fault:?}");
+            assert!(!fault.is_proved(&robot, Margins::default()), "{fault:?}");
         }
     }
 }
@@ -94,7 +96,7 @@ fn a_route_through_three_modes() {
         assert_eq!(stretch.det_a, first.det_a);
     }
     for (k, crossing) in route.crossings.iter().enumerate() {
-        assert!(crossing.is_proved(&robot));
+        assert!(crossing.is_proved(&robot, Margins::default()));
         let [before, after] = [&route.stretches[k], &route.stretches[k + 1]];
         assert_eq!(before.mode.with_other_posture(crossing.leg - 1), after.mode);
         assert_eq!(before.waypoints[before.waypoints.len() - 1], crossing.inside);
@@ -122,4 +124,52 @@ fn limits_can_leave_nothing_to_cross_to() {
     let graph = ModeGraph::new(&analysed(&robot("irb-360"), 5, &[]));
     assert!(graph.crossings.is_empty());
     assert_eq!(graph.groups.len(), graph.aspects.len());
+}
+
+/// Driven through its serial singularities the joints go on smoothly, within their limits, while the platform turns round there.
+#[test]
+fn a_route_is_timed_through_its_crossings() {
+    let robot = robot("five-bar");
+    let analysis = analysed(&robot, 10, &[]);
+    let graph = ModeGraph::new(&analysis);
+    let pose = [4.0, 7.0];
+    let [start, goal] = ["++", "--"].map(|signs| Configuration { pose: &pose, mode: mode(signs) });
+    let route = Planner::new(&analysis).route(&graph, start, goal, &PlanOptions::default()).unwrap();
+    let limits = JointLimits { speed: vec![2.0; 2], acceleration: vec![8.0; 2] };
+    let motion = trajectory(&route.pieces(&robot), &limits).unwrap();
+    let rows: Vec<_> = motion.rows(1000.0).collect();
+    for row in &rows {
+        assert!(row.velocity.iter().all(|v| v.abs() <= 2.0 + 1e-5), "{row:?}");
+        assert!(row.acceleration.iter().all(|a| a.abs() <= 8.0 + 1e-4), "{row:?}");
+        // Pose and joints belong together, on the branch that the crossing leads to.
+        assert!(robot.state(&row.pose, &row.q).unwrap().residual < 1e-5, "{row:?}");
+    }
+    for pair in rows.windows(2) {
+        let step = |k: usize| (pair[1].q[k] - pair[0].q[k]).abs();
+        assert!((0..2).all(|k| step(k) <= 2.1e-3), "{pair:?}");
+    }
+    let end = robot.inverse_in(&pose, mode("--")).unwrap().unwrap();
+    let last = &rows[rows.len() - 1].q;
+    let apart = |k: usize| (last[k] - end[k]) / TAU;
+    assert!((0..2).all(|k| (apart(k) - apart(k).round()).abs() < 1e-6), "{last:?} {end:?}");
+}
+
+#[test]
+fn margins_hold_through_crossings() {
+    let robot = robot("five-bar");
+    let analysis = analysed(&robot, 10, &[]);
+    let graph = ModeGraph::new(&analysis);
+    let pose = [4.0, 9.0];
+    let [start, goal] = ["++", "--"].map(|signs| Configuration { pose: &pose, mode: mode(signs) });
+    let route = |parallel, serial| {
+        let options = PlanOptions { margins: Margins { parallel, serial }, ..PlanOptions::default() };
+        Planner::new(&analysis).route(&graph, start, goal, &options)
+    };
+    let wide = route(0.6, 0.0).unwrap();
+    assert!(wide.crossings.iter().all(|c| c.clearance >= 0.6));
+    for stretch in &wide.stretches {
+        // Rows of A are 2 M long: 2·5 and 2·8.
+        assert!(sampled(&robot, stretch).iter().all(|(det, _)| det.abs() / 160.0 > 0.6 - 1e-9));
+    }
+    assert_eq!(route(0.1, 0.1).unwrap_err(), NoRoute::SerialMargin);
 }
