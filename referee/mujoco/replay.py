@@ -41,10 +41,11 @@ class Trajectory:
         if missing or not {"t", "time"} & set(times):
             names = ",".join(wanted)
             raise BadInput(f"{path}: the header is `{','.join(header)}`; wanted are `time` or `segment,t`, and `{names}`")
-        numbers = np.array([self._numbers(path, rows.line_num, header, row) for row in rows if row])
+        used = [header.index(name) for name in (*times, *wanted)]
+        numbers = np.array([self._numbers(path, rows.line_num, header, used, row) for row in rows if row])
         if len(numbers) < 2:
             raise BadInput(f"{path}: a path has at least two rows")
-        column = {name: numbers[:, k] for k, name in enumerate(header)}
+        column = {name: numbers[:, k] for k, name in enumerate((*times, *wanted))}
         clock = list(zip(*(column[name] for name in times)))
         late = next((k for k in range(1, len(clock)) if clock[k] < clock[k - 1]), None)
         if late:
@@ -53,13 +54,13 @@ class Trajectory:
         self.joints = np.stack([column[name] for name in joint_names], axis=1)
 
     @staticmethod
-    def _numbers(path, line, header, row):
+    def _numbers(path, line, header, used, row):
+        if len(row) != len(header):
+            raise BadInput(f"{path}:{line}: {len(row)} fields, but the header has {len(header)}")
         try:
-            values = [float(field) for field in row]
+            values = [float(row[k]) for k in used]
         except ValueError as error:
             raise BadInput(f"{path}:{line}: {error}") from error
-        if len(values) != len(header):
-            raise BadInput(f"{path}:{line}: {len(values)} fields, but the header has {len(header)}")
         if not all(map(math.isfinite, values)):
             raise BadInput(f"{path}:{line}: give finite numbers")
         return values

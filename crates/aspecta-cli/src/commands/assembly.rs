@@ -1,6 +1,6 @@
 //! `aspecta assembly`: the poses of a joint vector by aspects, and how to change from one to another.
 
-use super::planning::{self, Analysing, Moving, Wishes};
+use super::planning::{self, Analysing, Moving, Planned, Wishes};
 use super::queries::{Labels, det_a_unit};
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
@@ -60,7 +60,7 @@ struct Document<'a> {
 /// What was found.
 struct Found {
     modes: AssemblyModes,
-    change: Option<Result<Route, NoRoute>>,
+    change: Option<Planned>,
     explained: Option<(Vec<Fold>, Vec<CuspRound>)>,
 }
 
@@ -69,6 +69,7 @@ impl Assembly {
         let robot = input::robot(&self.robot)?;
         let options = self.wishes.options()?;
         let q = input::list("--q", &self.q, &Columns::joints(&robot), self.shown.deg)?;
+        self.moving.prepare()?;
         let solutions = robot.direct(&q)?;
         let chosen = self.from.zip(self.to).map(|(i, j)| [usize::from(i), usize::from(j)]);
         if let Some(wrong) = chosen.into_iter().flatten().find(|&k| k > solutions.len()) {
@@ -81,7 +82,12 @@ impl Assembly {
         let mut modes: Vec<WorkingMode> = solutions.iter().map(|s| s.mode).collect();
         modes.sort_unstable();
         modes.dedup();
-        if through || modes.is_empty() {
+        if solutions.is_empty() {
+            let complete = robot.direct_certified(&q)?.complete;
+            let modes = AssemblyModes { q, complete, solutions: Vec::new(), shared: Vec::new() };
+            return self.print(out, &robot, &Found { modes, change: None, explained: None });
+        }
+        if through {
             modes.clear();
         }
         let found = self.analysing.with(&robot, &modes, |analysis, control| {
@@ -96,10 +102,11 @@ impl Assembly {
                 planner.route(&ModeGraph::new(analysis), start, goal, &options)
             } else {
                 let plan = planner.plan(start.mode, start.pose, goal.pose, &options);
-                plan.map(|plan| Route { stretches: vec![plan], crossings: Vec::new() }).map_err(NoRoute::from)
+                plan.map(Route::from).map_err(NoRoute::from)
             };
-            let plan =
-                change.as_ref().ok().filter(|_| self.explain && !through).map(|route| &route.stretches[0]);
+            let change = self.moving.film(analysis, change);
+            let explicable = change.result.as_ref().ok().filter(|_| self.explain && !through);
+            let plan = explicable.map(|route| &route.stretches[0]);
             let explain = |plan: &Plan| {
                 let round = if robot.dof() == 3 { cusps_round(&robot, plan, control)? } else { Vec::new() };
                 Ok::<_, Failure>((folds(&robot, plan), round))
@@ -168,8 +175,8 @@ fn print_list(
             shared.aspect
         )?;
     }
-    if found.shared.is_empty() {
-        writeln!(out, "no two of them lie in one aspect")?;
+    if found.shared.is_empty() && count > 1 {
+        writeln!(out, "no two of them are known to lie in one aspect")?;
     }
     Ok(())
 }

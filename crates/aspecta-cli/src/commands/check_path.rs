@@ -9,6 +9,7 @@ use aspecta::motion::PathCheck;
 use aspecta::robot::Robot;
 use aspecta_cli::figure::profile::figure_11;
 use aspecta_cli::file;
+use aspecta_cli::report::motion::Motion;
 use clap::Args;
 use serde::Serialize;
 use std::fs;
@@ -31,7 +32,7 @@ length) and |B_jj| as a share of the greatest, along the path or up to where it 
 pub struct CheckPath {
     #[command(flatten)]
     path: PathArgs,
-    /// Draw det A and the B_jj along the path: figure11.svg in this directory
+    /// Draw det A and the B_jj along the path, and the robot moving along it: figure11.svg and motion.html in this directory
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
@@ -52,7 +53,7 @@ impl CheckPath {
         let draw = |directory: &PathBuf| {
             draw(directory, &robot, &check, lines).map_err(Failure::in_directory(directory))
         };
-        let figure = self.out.as_ref().map(draw).transpose()?;
+        let drawn = self.out.as_ref().map(draw).transpose()?;
         match self.format.format() {
             Format::Json => {
                 json(out, &Document { format_version: FORMAT_VERSION, robot: &robot.name, check: &check })?;
@@ -60,8 +61,8 @@ impl CheckPath {
             Format::Csv => print_profile(out, &robot, &check)?,
             Format::Table => print(out, &robot, &check, &self.path, lines)?,
         }
-        if let Some(figure) = figure {
-            let written = format!("figure: {}", figure.display());
+        if let Some([figure, motion]) = drawn {
+            let written = format!("figure: {}\nmotion: {}", figure.display(), motion.display());
             match self.format.format() {
                 Format::Table => writeln!(out, "{written}")?,
                 Format::Json | Format::Csv => note(&written),
@@ -71,10 +72,14 @@ impl CheckPath {
     }
 }
 
-/// Writes figure 11 into a directory, which is created if need be.
-fn draw(directory: &Path, robot: &Robot, check: &PathCheck, points: usize) -> io::Result<PathBuf> {
+/// Writes figure 11 and the motion into a directory, which is created if need be.
+fn draw(directory: &Path, robot: &Robot, check: &PathCheck, points: usize) -> io::Result<[PathBuf; 2]> {
     fs::create_dir_all(directory)?;
-    file::put(directory, "figure11.svg", figure_11(robot, check, points))
+    let motion = Motion::new(robot).then(check.mode, &check.profile).stopped_by(check.obstacle.as_ref());
+    Ok([
+        file::put(directory, "figure11.svg", figure_11(robot, check, points))?,
+        file::put(directory, "motion.html", motion.page())?,
+    ])
 }
 
 /// The path: poses, joint vectors, and figure 11, det A and the B_jj, each divided by its largest modulus.

@@ -60,19 +60,20 @@ impl Plan {
         let to_mode = self.to_mode.as_deref().map_or(Ok(mode), |text| input::mode(&robot, text))?;
         let through = self.through_modes || mode != to_mode;
         let modes: &[WorkingMode] = if through { &[] } else { &[mode] };
-        let result = self.analysing.with(&robot, modes, |analysis, _| {
+        self.moving.prepare()?;
+        let planned = self.analysing.with(&robot, modes, |analysis, _| {
             let mut planner = Planner::new(analysis);
-            if !through {
+            let result = if through {
+                let graph = ModeGraph::new(analysis);
+                let [start, goal] =
+                    [Configuration { pose: &from, mode }, Configuration { pose: &to, mode: to_mode }];
+                planner.route(&graph, start, goal, &options)
+            } else {
                 let plan = planner.plan(mode, &from, &to, &options);
-                return Ok(plan
-                    .map(|plan| Route { stretches: vec![plan], crossings: Vec::new() })
-                    .map_err(NoRoute::from));
-            }
-            let graph = ModeGraph::new(analysis);
-            let [start, goal] =
-                [Configuration { pose: &from, mode }, Configuration { pose: &to, mode: to_mode }];
-            Ok(planner.route(&graph, start, goal, &options))
+                plan.map(Route::from).map_err(NoRoute::from)
+            };
+            Ok(self.moving.film(analysis, result))
         })?;
-        planning::print(out, &robot, &result, &self.moving, self.shown)
+        planning::print(out, &robot, &planned, &self.moving, self.shown)
     }
 }

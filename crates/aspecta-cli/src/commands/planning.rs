@@ -12,10 +12,12 @@ use aspecta::aspect::{Analysis, Options, analyze};
 use aspecta::kinematics::WorkingMode;
 use aspecta::motion::modes::{NoRoute, Route};
 use aspecta::motion::plan::{Plan, PlanOptions};
-use aspecta::motion::time::trajectory;
-use aspecta::motion::{Clearance, Joined, Least, PathCheck, PathOptions, check_poses};
+use aspecta::motion::time::{Waypoint, trajectory};
+use aspecta::motion::{Clearance, Joined, Least, PathCheck, PathOptions, ProfilePoint, check_poses};
 use aspecta::paving::Budget;
 use aspecta::robot::Robot;
+use aspecta_cli::file;
+use aspecta_cli::report::motion::Motion;
 use clap::Args;
 use serde::Serialize;
 use std::io::Write;
@@ -106,9 +108,39 @@ pub struct Moving {
     /// Rows a second
     #[arg(long, value_name = "HZ", default_value_t = 100.0)]
     rate: f64,
+    /// Write motion.html into this directory: the robot moving, its aspect and the determinants together
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+/// What came of planning.
+pub struct Planned {
+    /// The route, or why there is none.
+    pub result: Result<Route, NoRoute>,
+    /// The page that plays it, if it was asked for.
+    pub page: Option<String>,
 }
 
 impl Moving {
+    /// The directory of `--out` must be one that can be written to before the work begins.
+    pub fn prepare(&self) -> Result<(), Failure> {
+        self.out.as_deref().map_or(Ok(()), |dir| file::writable(dir).map_err(Failure::in_directory(dir)))
+    }
+
+    /// The result with the page that plays it, if that is wanted.
+    pub fn film(&self, analysis: &Analysis, result: Result<Route, NoRoute>) -> Planned {
+        let route = result.as_ref().ok().filter(|_| self.out.is_some());
+        let page = route.map(|route| {
+            let pieces = route.pieces(&analysis.robot);
+            let mut motion = Motion::new(&analysis.robot).within(analysis);
+            for samples in pieces.iter().flat_map(|piece| piece.samples.chunk_by(|a, b| a.mode == b.mode)) {
+                motion = motion.then(samples[0].mode, &profile(samples));
+            }
+            motion.page()
+        });
+        Planned { result, page }
+    }
+
     /// Writes what was asked for, and says so.
     fn write(&self, robot: &Robot, route: &Route, degrees: bool) -> Result<Option<String>, Failure> {
         let (Some(path), Some(speed), Some(acceleration)) =
@@ -125,6 +157,21 @@ impl Moving {
     }
 }
 
+/// Samples as the page of a motion takes them, which computes the determinants itself.
+fn profile(samples: &[Waypoint]) -> Vec<ProfilePoint> {
+    let last = samples.len().saturating_sub(1).max(1) as f64;
+    let point = |(k, at): (usize, &Waypoint)| ProfilePoint {
+        segment: 1,
+        t: k as f64 / last,
+        pose: at.pose.clone(),
+        q: at.q.clone(),
+        mode: at.mode,
+        relative_det_a: 0.0,
+        relative_b: Vec::new(),
+    };
+    samples.iter().enumerate().map(point).collect()
+}
+
 /// Prints a route, checked once more, or why there is none.
 ///
 /// # Errors
@@ -132,7 +179,7 @@ impl Moving {
 pub fn print(
     out: &mut dyn Write,
     robot: &Robot,
-    result: &Result<Route, NoRoute>,
+    planned: &Planned,
     moving: &Moving,
     shown: ShownArgs,
 ) -> Result<Answer, Failure> {
@@ -144,7 +191,7 @@ pub fn print(
         checks: Vec::new(),
         refusal: None,
     };
-    match result {
+    match &planned.result {
         Err(refusal) if refusal.is_bad_input() => Err(Failure::Input(refusal.to_string())),
         Err(refusal) => {
             match format {
@@ -159,7 +206,12 @@ pub fn print(
         }
         Ok(route) => {
             let checks = checks(robot, route)?;
-            let written = moving.write(robot, route, shown.deg)?;
+            let mut written = moving.write(robot, route, shown.deg)?.into_iter().collect::<Vec<_>>();
+            if let (Some(directory), Some(page)) = (&moving.out, &planned.page) {
+                let path =
+                    file::put(directory, "motion.html", page).map_err(Failure::in_directory(directory))?;
+                written.push(format!("motion: {}", path.display()));
+            }
             match format {
                 Format::Json => {
                     (document.route, document.checks) = (Some(route), checks);
@@ -168,10 +220,8 @@ pub fn print(
                 Format::Csv => print_csv(out, robot, route)?,
                 Format::Table => print_route(out, robot, route, &checks, shown.deg)?,
             }
-            match (written, format) {
-                (Some(written), Format::Table) => writeln!(out, "{written}")?,
-                (Some(written), _) => note(&written),
-                (None, _) => {}
+            for line in written {
+                if format == Format::Table { writeln!(out, "{line}")? } else { note(&line) }
             }
             Ok(Answer::Yes)
         }

@@ -161,7 +161,7 @@ pub(super) fn label_colour(label: Label) -> Option<&'static str> {
 }
 
 /// Fills the pixels of every label that has a colour.
-pub(super) fn fill<T: Copy + Ord, C: Display>(
+pub(crate) fn fill<T: Copy + Ord, C: Display>(
     svg: &mut Svg,
     chart: &Chart,
     raster: &Raster<T>,
@@ -179,7 +179,7 @@ pub(super) fn fill<T: Copy + Ord, C: Display>(
 
 /// Curves, within the plot; `turns` names the coordinates in which they wrap round. Unwound lines are drawn once for
 /// each turn that brings a part of them into the plot.
-pub(super) fn draw_lines(svg: &mut Svg, chart: &Chart, lines: &Lines, turns: [bool; 2]) {
+pub(crate) fn draw_lines(svg: &mut Svg, chart: &Chart, lines: &Lines, turns: [bool; 2]) {
     chart.clip(svg);
     for kind in [Kind::Limit, Kind::Serial, Kind::Parallel] {
         let of_kind = lines.iter().filter(|l| l.0 == kind).map(|l| &l.1);
@@ -265,13 +265,13 @@ fn legend(svg: &mut Svg, survey: &Survey<'_>, shown: usize, at: [f64; 2]) {
     }
 }
 
-pub(super) fn swatch(svg: &mut Svg, at: [f64; 2], colour: &str, text: &str) -> f64 {
+pub(crate) fn swatch(svg: &mut Svg, at: [f64; 2], colour: &str, text: &str) -> f64 {
     svg.rect(at[0], at[1] - 9.0, 18.0, 10.0, &format!("fill:{colour};stroke:#666;stroke-width:0.4"));
     svg.text([at[0] + 24.0, at[1]], Anchor::Start, 11.0, "", text);
     at[0] + 42.0 + 5.6 * text.chars().count() as f64
 }
 
-pub(super) fn sample_line(svg: &mut Svg, at: [f64; 2], kind: Kind, text: &str) -> f64 {
+pub(crate) fn sample_line(svg: &mut Svg, at: [f64; 2], kind: Kind, text: &str) -> f64 {
     styled_line(svg, at, line_style(kind), text)
 }
 

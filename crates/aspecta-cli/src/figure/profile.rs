@@ -20,54 +20,86 @@ const DOT: f64 = 2.5;
 ///
 /// `points` is the number of poses of the path; the figure ends where the check does.
 pub fn figure_11(robot: &Robot, check: &PathCheck, points: usize) -> String {
-    let last = last_point(check, points);
+    let runs: Vec<_> = runs(&check.profile).collect();
     let apart = check.joined == Joined::None;
-    let chart = Chart {
-        x: Axis {
-            label: if apart { "sample" } else { "segment + t, with t from 0 to 1 along each segment" }.into(),
-            range: if apart { (0.5, last as f64 + 0.5) } else { (1.0, last as f64) },
-            angle: false,
-        },
-        y: Axis { label: "value / largest modulus".into(), range: (-1.25, 1.25), angle: false },
-        left: 58.0,
-        top: 26.0,
-        width: 640.0,
-        height: 340.0,
-    };
+    let plot = Plot { robot, runs: &runs, obstacle: check.obstacle.as_ref(), points, apart };
+    let last = plot.last_point();
     let mode = signs(&check.mode.to_string());
     let rest = if last < points { format!(", up to point {last} of {points}") } else { String::new() };
     let title = format!("{}, mode ({mode}): det A and B along the path{rest}", robot.name);
-    let mut svg = Svg::new("figure11", 714.0, 446.0, &title);
-    svg.open("class=\"zero\"");
-    let [y0, y1] = [chart.x.range.0, chart.x.range.1].map(|x| chart.at([x, 0.0]));
-    svg.line(y0, y1, &format!("fill:none;stroke:{INK};stroke-width:0.8"));
-    svg.close();
-    mark_points(&mut svg, &chart, last);
-    let curves = curves(robot);
-    chart.clip(&mut svg);
-    if let Some(obstacle) = &check.obstacle {
-        band(&mut svg, &chart, obstacle, apart);
-    }
-    for curve in &curves {
-        svg.open("class=\"curve\"");
-        for run in runs(&check.profile) {
-            let line: Vec<_> = run.iter().map(|p| chart.at([along(p), (curve.value)(p)])).collect();
-            if apart {
-                let style = format!("{};stroke-dasharray:none", curve.style);
-                line.iter().for_each(|at| svg.circle(*at, DOT, &style));
-            } else {
-                svg.polyline(&line, false, &curve.style);
+    plot.draw(&title).0.finish()
+}
+
+/// What figure 11 shows.
+pub(crate) struct Plot<'a> {
+    /// The robot.
+    pub robot: &'a Robot,
+    /// The samples in stretches without a gap.
+    pub runs: &'a [&'a [ProfilePoint]],
+    /// Where the path fails.
+    pub obstacle: Option<&'a Obstacle>,
+    /// The points of the whole path.
+    pub points: usize,
+    /// Whether they are not joined.
+    pub apart: bool,
+}
+
+impl Plot<'_> {
+    /// The figure, to draw on, and where its points are: [`along`] to the right and the values upward.
+    pub fn draw(&self, title: &str) -> (Svg, Chart) {
+        let (last, apart) = (self.last_point(), self.apart);
+        let chart = Chart {
+            x: Axis {
+                label: if apart { "sample" } else { "segment + t, with t from 0 to 1 along each segment" }
+                    .into(),
+                range: if apart { (0.5, last as f64 + 0.5) } else { (1.0, last as f64) },
+                angle: false,
+            },
+            y: Axis { label: "value / largest modulus".into(), range: (-1.25, 1.25), angle: false },
+            left: 58.0,
+            top: 26.0,
+            width: 640.0,
+            height: 340.0,
+        };
+        let mut svg = Svg::new("figure11", 714.0, 446.0, title);
+        svg.open("class=\"zero\"");
+        let [y0, y1] = [chart.x.range.0, chart.x.range.1].map(|x| chart.at([x, 0.0]));
+        svg.line(y0, y1, &format!("fill:none;stroke:{INK};stroke-width:0.8"));
+        svg.close();
+        mark_points(&mut svg, &chart, last);
+        let curves = curves(self.robot);
+        chart.clip(&mut svg);
+        if let Some(obstacle) = self.obstacle {
+            band(&mut svg, &chart, obstacle, apart);
+        }
+        for curve in &curves {
+            svg.open("class=\"curve\"");
+            for run in self.runs {
+                let line: Vec<_> = run.iter().map(|p| chart.at([along(p), (curve.value)(p)])).collect();
+                if apart {
+                    let style = format!("{};stroke-dasharray:none", curve.style);
+                    line.iter().for_each(|at| svg.circle(*at, DOT, &style));
+                } else {
+                    svg.polyline(&line, false, &curve.style);
+                }
             }
+            svg.close();
         }
         svg.close();
+        if let Some(obstacle) = self.obstacle {
+            name_obstacle(&mut svg, &chart, obstacle, apart);
+        }
+        chart.frame(&mut svg, title);
+        legend(&mut svg, &curves, self.obstacle.is_some(), [chart.left, 426.0]);
+        (svg, chart)
     }
-    svg.close();
-    if let Some(obstacle) = &check.obstacle {
-        name_obstacle(&mut svg, &chart, obstacle, apart);
+
+    /// The number of the point at which the samples, or the obstacle, end.
+    fn last_point(&self) -> usize {
+        let segments = self.runs.iter().filter_map(|run| run.last()).map(|p| p.segment);
+        let last = segments.chain(self.obstacle.map(|o| o.segment)).max().unwrap_or(1) + 1;
+        last.min(self.points.max(2))
     }
-    chart.frame(&mut svg, &title);
-    legend(&mut svg, &curves, check.obstacle.is_some(), [chart.left, 426.0]);
-    svg.finish()
 }
 
 /// What fails at an obstacle, in words.
@@ -84,35 +116,36 @@ pub fn failure(obstacle: &Obstacle) -> String {
     if obstacle.proved { what } else { format!("not excluded: {what}") }
 }
 
-/// The number of the point at which the check ended.
-fn last_point(check: &PathCheck, points: usize) -> usize {
-    let segments = check.profile.last().map(|p| p.segment).into_iter();
-    let last = segments.chain(check.obstacle.as_ref().map(|o| o.segment)).max().unwrap_or(1) + 1;
-    last.min(points.max(2))
-}
-
-fn along(p: &ProfilePoint) -> f64 {
+/// Where a sample is along the path.
+pub(crate) fn along(p: &ProfilePoint) -> f64 {
     p.segment as f64 + p.t
 }
 
 /// One of the determinants.
-struct Curve {
-    name: String,
+pub(crate) struct Curve {
+    /// As it is written.
+    pub name: String,
+    /// Of its line.
     style: String,
-    value: Box<dyn Fn(&ProfilePoint) -> f64>,
+    /// Its colour.
+    pub colour: &'static str,
+    /// Its value over its largest modulus.
+    pub value: Box<dyn Fn(&ProfilePoint) -> f64>,
 }
 
 /// det A and, told apart by colour and dashes, the B_jj.
-fn curves(robot: &Robot) -> Vec<Curve> {
+pub(crate) fn curves(robot: &Robot) -> Vec<Curve> {
     const DASHES: [&str; 3] = ["7 3", "2 2.5", "9 3 2 3"];
     let style = |colour: &str, rest: &str| format!("fill:none;stroke:{colour};{rest};stroke-linejoin:round");
     let det = Curve {
         name: "det A".into(),
         style: style(INK, "stroke-width:2"),
+        colour: INK,
         value: Box::new(|p| p.relative_det_a),
     };
     let leg = |j: usize| Curve {
         name: format!("B{0}{0}", subscript(j + 1)),
+        colour: palette::aspect(j + 1),
         style: style(
             palette::aspect(j + 1),
             &format!("stroke-width:1.8;stroke-dasharray:{}", DASHES[j % DASHES.len()]),
@@ -123,7 +156,7 @@ fn curves(robot: &Robot) -> Vec<Curve> {
 }
 
 /// The samples in stretches without a gap: there are none where the path is out of reach.
-fn runs(profile: &[ProfilePoint]) -> impl Iterator<Item = &[ProfilePoint]> {
+pub(crate) fn runs(profile: &[ProfilePoint]) -> impl Iterator<Item = &[ProfilePoint]> {
     let steps = profile.windows(2).map(|w| along(&w[1]) - along(&w[0]));
     let step = steps.filter(|&s| s > 0.0).fold(f64::INFINITY, f64::min);
     profile.chunk_by(move |a, b| along(b) - along(a) < 1.5 * step)

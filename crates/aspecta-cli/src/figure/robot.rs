@@ -3,6 +3,7 @@
 use super::axes::{Axis, Chart};
 use super::label::Labels;
 use super::palette::INK;
+use super::shape::Shapes;
 use super::skeleton::{LegShape, Point, Skeleton, minus, plus, times};
 use super::svg::{Anchor, Svg};
 use aspecta::aspect::{ModeReport, Reachable, Sample};
@@ -20,7 +21,10 @@ pub fn robot(robot: &Robot, sample: &Sample) -> String {
     let skeleton = Skeleton::at(robot, &sample.pose, &sample.q);
     let view = View::fit(robot, &[&skeleton], [62.0, 28.0, width - 82.0, height - 108.0]);
     view.backdrop(&mut svg, "", &robot.length_unit);
-    Drawing { robot, skeleton: &skeleton, view: &view, names: true }.draw(&mut svg);
+    let drawing = Drawing { robot, skeleton: &skeleton, view: &view, large: true };
+    let mut shapes = drawing.shapes();
+    label(&mut shapes, &view, drawing.lines(), drawing.names());
+    shapes.0.iter().for_each(|shape| svg.shape(shape));
     legend(&mut svg, robot, [62.0, height - 14.0]);
     svg.finish()
 }
@@ -42,7 +46,8 @@ pub fn postures(robot: &Robot, modes: &[ModeReport]) -> String {
             Some(skeleton) => {
                 let view = View::fit(robot, &drawn, [left + 40.0, top + 22.0, cell_w - 60.0, cell_h - 66.0]);
                 view.backdrop(&mut svg, &title, &robot.length_unit);
-                Drawing { robot, skeleton, view: &view, names: false }.draw(&mut svg);
+                let drawing = Drawing { robot, skeleton, view: &view, large: false };
+                drawing.shapes().0.iter().for_each(|shape| svg.shape(shape));
             }
             None => {
                 let word = match report.reachable {
@@ -65,7 +70,7 @@ pub fn signs(mode: &str) -> String {
 }
 
 /// How space is projected on the paper.
-struct View {
+pub(super) struct View {
     chart: Chart,
     /// Rows: the paper's right and up, in base coordinates.
     project: [Point; 2],
@@ -74,7 +79,7 @@ struct View {
 
 impl View {
     /// A view in a box of pixels (left, top, width, height) that shows all the skeletons.
-    fn fit(robot: &Robot, skeletons: &[&Skeleton], [left, top, width, height]: [f64; 4]) -> Self {
+    pub fn fit(robot: &Robot, skeletons: &[&Skeleton], [left, top, width, height]: [f64; 4]) -> Self {
         let flat = robot.platform.space() == 2;
         let (sin_a, cos_a) = (-0.95_f64).sin_cos();
         let (sin_e, cos_e) = 0.42_f64.sin_cos();
@@ -112,12 +117,13 @@ impl View {
         Self { chart, project, flat }
     }
 
-    fn at(&self, p: Point) -> [f64; 2] {
+    /// Where a point is seen.
+    pub fn at(&self, p: Point) -> [f64; 2] {
         self.chart.at([dot(self.project[0], p), dot(self.project[1], p)])
     }
 
     /// Axes in the plane, a scale bar in space.
-    fn backdrop(&self, svg: &mut Svg, title: &str, unit: &str) {
+    pub fn backdrop(&self, svg: &mut Svg, title: &str, unit: &str) {
         let c = &self.chart;
         if self.flat {
             c.frame(svg, title);
@@ -146,15 +152,23 @@ impl View {
     }
 }
 
-struct Drawing<'a> {
-    robot: &'a Robot,
-    skeleton: &'a Skeleton,
-    view: &'a View,
-    names: bool,
+/// How a configuration is drawn.
+pub(super) struct Drawing<'a> {
+    /// The robot,
+    pub robot: &'a Robot,
+    /// its configuration,
+    pub skeleton: &'a Skeleton,
+    /// and how it is seen.
+    pub view: &'a View,
+    /// Whether there is room for thick lines and for the names of axes.
+    pub large: bool,
 }
 
 impl Drawing<'_> {
-    fn draw(&self, svg: &mut Svg) {
+    /// All but the names of points. Of one robot the same shapes in every configuration.
+    pub fn shapes(&self) -> Shapes {
+        let mut shapes = Shapes::default();
+        let svg = &mut shapes;
         let spherical = self.robot.platform == Platform::TurningBody;
         if spherical {
             let c = self.view.at([0.0; 3]);
@@ -175,9 +189,7 @@ impl Drawing<'_> {
         if self.robot.platform != Platform::PlanePoint {
             self.frame(svg, self.skeleton.origin, self.skeleton.axes, PLATFORM);
         }
-        if self.names {
-            self.label(svg);
-        }
+        shapes
     }
 
     fn depth(&self, k: usize) -> f64 {
@@ -185,7 +197,7 @@ impl Drawing<'_> {
         if self.view.flat { 0.0 } else { dot([up[0], up[1], 0.0], self.skeleton.legs[k].a) }
     }
 
-    fn base(&self, svg: &mut Svg, leg: &LegShape) {
+    fn base(&self, svg: &mut Shapes, leg: &LegShape) {
         let a = self.view.at(leg.a);
         if let Some([from, to]) = leg.rail {
             svg.line(
@@ -195,14 +207,14 @@ impl Drawing<'_> {
             );
             return;
         }
-        let size = if self.names { 9.0 } else { 6.0 };
+        let size = if self.large { 9.0 } else { 6.0 };
         let style = format!("fill:#ddd;stroke:{BASE};stroke-width:1");
         svg.polyline(&[a, [a[0] - size, a[1] + 1.5 * size], [a[0] + size, a[1] + 1.5 * size]], true, &style);
     }
 
-    fn leg(&self, svg: &mut Svg, k: usize) {
+    fn leg(&self, svg: &mut Shapes, k: usize) {
         let leg = &self.skeleton.legs[k];
-        let thick = if self.names { 1.0 } else { 0.7 };
+        let thick = if self.large { 1.0 } else { 0.7 };
         let stroke = |colour: &str, width: f64| {
             format!("fill:none;stroke:{colour};stroke-width:{:.1};stroke-linecap:round", width * thick)
         };
@@ -238,12 +250,12 @@ impl Drawing<'_> {
     }
 
     /// A passive joint is white, a driven one filled.
-    fn joint(&self, svg: &mut Svg, p: Point, driven: bool) {
-        let (fill, r) = (if driven { CRANK } else { "#fff" }, if self.names { 4.5 } else { 3.0 });
+    fn joint(&self, svg: &mut Shapes, p: Point, driven: bool) {
+        let (fill, r) = (if driven { CRANK } else { "#fff" }, if self.large { 4.5 } else { 3.0 });
         svg.circle(self.view.at(p), r, &format!("fill:{fill};stroke:{INK};stroke-width:1.1"));
     }
 
-    fn platform(&self, svg: &mut Svg) {
+    fn platform(&self, svg: &mut Shapes) {
         if self.skeleton.is_point() {
             return;
         }
@@ -256,59 +268,51 @@ impl Drawing<'_> {
 
     /// Length of a frame's axes.
     fn frame_length(&self) -> f64 {
-        let share = if self.names { 0.1 } else { 0.12 };
+        let share = if self.large { 0.1 } else { 0.12 };
         share * self.view.chart.x.span().min(self.view.chart.y.span())
     }
 
-    fn frame(&self, svg: &mut Svg, origin: Point, axes: [Point; 3], colour: &str) {
+    fn frame(&self, svg: &mut Shapes, origin: Point, axes: [Point; 3], colour: &str) {
         let length = self.frame_length();
         let style = format!("stroke:{colour};stroke-width:1.2;fill:none");
         for (axis, name) in axes.into_iter().zip(["x", "y", "z"]).take(self.robot.platform.space()) {
             let (from, to) = (self.view.at(origin), self.view.at(plus(origin, times(length, axis))));
             svg.line(from, to, &style);
             let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
-            let norm = dx.hypot(dy).max(1e-9);
-            let (ux, uy) = (5.0 * dx / norm, 5.0 * dy / norm);
-            if norm > 8.0 {
-                let barbs = [
-                    [to[0] - ux - 0.5 * uy, to[1] - uy + 0.5 * ux],
-                    to,
-                    [to[0] - ux + 0.5 * uy, to[1] - uy - 0.5 * ux],
-                ];
-                svg.polyline(&barbs, false, &style);
-                if self.names {
-                    let at = [to[0] + 1.6 * ux, to[1] + 1.6 * uy + 3.5];
-                    svg.text(at, Anchor::Middle, 11.0, &format!("font-style:italic;fill:{colour}"), name);
-                }
+            // An axis that points at the reader has small barbs.
+            let size = 5.0 / dx.hypot(dy).max(8.0);
+            let (ux, uy) = (size * dx, size * dy);
+            let barbs = [
+                [to[0] - ux - 0.5 * uy, to[1] - uy + 0.5 * ux],
+                to,
+                [to[0] - ux + 0.5 * uy, to[1] - uy - 0.5 * ux],
+            ];
+            svg.polyline(&barbs, false, &style);
+            if self.large {
+                let at = [to[0] + 1.6 * ux, to[1] + 1.6 * uy + 3.5];
+                svg.text(at, 11.0, &format!("font-style:italic;fill:{colour}"), name);
             }
         }
     }
 
-    fn label(&self, svg: &mut Svg) {
+    /// The points that have names.
+    pub fn names(&self) -> Vec<(Point, String)> {
         let point = self.skeleton.is_point();
-        let halo = "font-style:italic;paint-order:stroke;stroke:#fff;stroke-width:3px;stroke-linejoin:round";
-        let mut labels = Labels::among(self.lines().into_iter().map(|line| line.map(|p| self.view.at(p))));
-        let mut put = |p: Point, name: String| {
-            let [x, y] = labels.beside(self.view.at(p));
-            svg.text([x, y + 4.5], Anchor::Middle, 13.0, halo, &name);
-        };
-        for (k, leg) in self.skeleton.legs.iter().enumerate() {
+        let of_leg = |(k, leg): (usize, &LegShape)| {
             let index = subscript(k + 1);
-            put(leg.a, format!("A{index}"));
-            if let Some(b) = leg.b {
-                put(b, format!("B{index}"));
-            }
-            if !point {
-                put(leg.c, format!("C{index}"));
-            }
-        }
+            let c = (!point).then(|| (leg.c, format!("C{index}")));
+            let b = leg.b.map(|b| (b, format!("B{index}")));
+            [Some((leg.a, format!("A{index}"))), b, c].into_iter().flatten().collect::<Vec<_>>()
+        };
+        let mut names: Vec<_> = self.skeleton.legs.iter().enumerate().flat_map(of_leg).collect();
         if point {
-            put(self.skeleton.legs[0].c, "C".into());
+            names.push((self.skeleton.legs[0].c, "C".into()));
         }
+        names
     }
 
     /// The straight lines between the points that have names, and those of the frames.
-    fn lines(&self) -> Vec<[Point; 2]> {
+    pub fn lines(&self) -> Vec<[Point; 2]> {
         let legs = &self.skeleton.legs;
         let mut lines: Vec<[Point; 2]> =
             legs.iter().flat_map(|l| [[l.a, l.b.unwrap_or(l.a)], [l.b.unwrap_or(l.a), l.c]]).collect();
@@ -322,7 +326,18 @@ impl Drawing<'_> {
     }
 }
 
-fn legend(svg: &mut Svg, robot: &Robot, at: [f64; 2]) {
+/// Names beside their points, clear of lines.
+pub(super) fn label(shapes: &mut Shapes, view: &View, lines: Vec<[Point; 2]>, names: Vec<(Point, String)>) {
+    let halo = "font-style:italic;paint-order:stroke;stroke:#fff;stroke-width:3px;stroke-linejoin:round";
+    let mut labels = Labels::among(lines.into_iter().map(|line| line.map(|p| view.at(p))));
+    for (p, name) in names {
+        let [x, y] = labels.beside(view.at(p));
+        shapes.text([x, y + 4.5], 13.0, halo, &name);
+    }
+}
+
+/// What the colours mean.
+pub(super) fn legend(svg: &mut Svg, robot: &Robot, at: [f64; 2]) {
     let has = |f: fn(&Actuator) -> bool| robot.legs.iter().any(|l| f(&l.actuator));
     let mut entries = Vec::new();
     if has(|a| a.is_angle()) {

@@ -64,7 +64,7 @@ pub fn slices(robot: &Robot, window: &Window, sides: [usize; 3], mode: &ModeCell
 }
 
 /// Where across the third coordinate a slice is: `φ = 0.5 rad`.
-pub(super) fn place(robot: &Robot, at: f64) -> String {
+pub(crate) fn place(robot: &Robot, at: f64) -> String {
     let third = robot.platform.coordinates()[2];
     let unit = if third.angle { "rad" } else { &robot.length_unit };
     format!("{} = {} {unit}", coordinate_name(third.name), Number(at)).replace('-', "−")
@@ -108,17 +108,16 @@ impl Panels {
 
 /// What the mode's classes say of the plane `at`: an aspect where either has one.
 fn slice(mode: &ModeCells<'_>, axes: &[Axis; 2], size: [usize; 2], at: f64) -> Raster<Label> {
-    let rasters: Vec<Raster<Label>> = mode
-        .classes
-        .iter()
-        .map(|(_, cells)| {
-            let cut: Vec<Cell> = cells.iter().filter(|c| c.lo[2] <= at && at < c.hi[2]).copied().collect();
-            cell_raster(&cut, axes, [0, 1], size)
-        })
-        .collect();
+    let rasters: Vec<_> = mode.classes.iter().map(|(_, cells)| cut(cells, axes, size, at)).collect();
     Raster::from_fn(size[0], size[1], |c, r| {
         rasters.iter().map(|raster| raster.at(c, r)).max().unwrap_or(Label::Outside)
     })
+}
+
+/// What the cells of a class say of the plane `at` across the third coordinate.
+pub(crate) fn cut(cells: &[Cell], axes: &[Axis; 2], size: [usize; 2], at: f64) -> Raster<Label> {
+    let cut: Vec<Cell> = cells.iter().filter(|c| c.lo[2] <= at && at < c.hi[2]).copied().collect();
+    cell_raster(&cut, axes, [0, 1], size)
 }
 
 /// Names the colours of the mode's aspects, as many as there is room for.

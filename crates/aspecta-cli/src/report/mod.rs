@@ -1,6 +1,7 @@
 //! One standalone `report.html` and each of its figures as a file.
 
 mod doubts;
+pub mod motion;
 mod page;
 pub(crate) mod tables;
 mod volume;

@@ -239,6 +239,13 @@ impl Planner<'_> {
 /// Samples of a segment, and of each half of a crossing.
 const SAMPLES: usize = 100;
 
+impl From<Plan> for Route {
+    /// A motion within one mode.
+    fn from(plan: Plan) -> Self {
+        Self { stretches: vec![plan], crossings: Vec::new() }
+    }
+}
+
 impl Route {
     /// The motion ready for [`trajectory`](super::time::trajectory): a piece a segment, and one for each crossing with the way there and back, on which
     /// the joints go on smoothly while the platform turns round. Numerical: the crossing leg's joint is computed in doubles.
