@@ -68,15 +68,20 @@ impl<'a> Cost<'a> {
         for_platform!(self.robot.platform, measured(self.robot, self.demand, pose))
     }
 
+    /// Whether nothing but length counts.
+    pub fn is_length(&self) -> bool {
+        self.weight == 0.0
+    }
+
     /// Cost of a unit of length at a pose so far from singularities.
     pub fn density(&self, measures: Margins) -> f64 {
-        if self.weight == 0.0 { 1.0 } else { measures.parallel.min(measures.serial).powf(-self.weight) }
+        if self.is_length() { 1.0 } else { measures.parallel.min(measures.serial).powf(-self.weight) }
     }
 
     /// Cost of a straight segment.
     pub fn of(&self, a: &Pose, b: &Pose) -> f64 {
         let length = self.distance(a, b);
-        if self.weight == 0.0 {
+        if self.is_length() {
             return length;
         }
         let count = (64.0 * length / self.size).clamp(FEWEST, MOST).ceil() as usize;

@@ -140,7 +140,7 @@ impl<'a> Planner<'a> {
         let proof = Proof { analysis, demand: &demand };
         let ends = [start, goal].map(|pose| -> Pose { padded(&in_window(&analysis.window, pose)) });
         let path = self.sound_path(class, &cost, &proof, ends)?;
-        let path = shorten::improve(&proof, &cost, path, options.weight > 0.0);
+        let path = shorten::improve(&proof, &cost, path);
         if let Some(k) = path.windows(2).position(|ends| !proof.holds_within(&ends[0], &ends[1], FINAL)) {
             return Err(Refusal::Unproved { pose: path[k][..analysis.robot.dof()].to_vec() });
         }
@@ -163,9 +163,8 @@ impl<'a> Planner<'a> {
         ends: [Pose; 2],
     ) -> Result<Vec<Pose>, Refusal> {
         let straight = [ends[0], cost.beside(&ends[0], &ends[1])];
-        if cost.of_all(&straight) <= cost.distance(&straight[0], &straight[1]) * (1.0 + 1e-12)
-            && proof.holds(&straight[0], &straight[1])
-        {
+        // Nothing is shorter.
+        if cost.is_length() && proof.holds(&straight[0], &straight[1]) {
             return Ok(straight.to_vec());
         }
         let analysis = self.analysis;

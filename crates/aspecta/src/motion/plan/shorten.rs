@@ -10,18 +10,37 @@ const APART: f64 = 0.2;
 const STEP: f64 = 0.04;
 /// Rounds of moves.
 const ROUNDS: usize = 5;
+/// What a path may cost more, as a share, if that leaves out waypoints.
+const THINNING: f64 = 0.01;
 
 /// A path of proved segments, made cheaper; its ends stay.
-pub(super) fn improve(proof: &Proof<'_>, cost: &Cost<'_>, path: Vec<Pose>, weighted: bool) -> Vec<Pose> {
+pub(super) fn improve(proof: &Proof<'_>, cost: &Cost<'_>, path: Vec<Pose>) -> Vec<Pose> {
     let mut path = shortcut(proof, cost, path);
     for _ in 0..2 {
-        if weighted {
+        if !cost.is_length() {
             path = subdivide(cost, &path);
         }
         let moved = relax(proof, cost, &mut path);
         path = shortcut(proof, cost, path);
         if !moved {
             break;
+        }
+    }
+    thin(proof, cost, path)
+}
+
+/// Leaves out waypoints that hardly pay: a path with few corners is worth a little more length.
+fn thin(proof: &Proof<'_>, cost: &Cost<'_>, mut path: Vec<Pose>) -> Vec<Pose> {
+    let mut allowance = THINNING * cost.of_all(&path);
+    let mut k = 1;
+    while k + 1 < path.len() {
+        let (before, here, after) = (&path[k - 1], &path[k], &path[k + 1]);
+        let extra = cost.of(before, after) - cost.of(before, here) - cost.of(here, after);
+        if extra <= allowance && proof.holds(before, after) {
+            allowance -= extra.max(0.0);
+            path.remove(k);
+        } else {
+            k += 1;
         }
     }
     path
