@@ -3,6 +3,9 @@
 mod assembly;
 mod modes;
 mod plan;
+#[path = "../random/mod.rs"]
+#[allow(dead_code)]
+mod random;
 mod traverse;
 
 use aspecta::aspect::{Analysis, Options, analyze};
@@ -11,6 +14,7 @@ use aspecta::motion::check_path;
 use aspecta::motion::plan::Plan;
 use aspecta::paving::{Budget, Control};
 use aspecta::robot::{Robot, catalogue};
+use random::Random;
 use std::f64::consts::TAU;
 use std::sync::atomic::AtomicBool;
 
@@ -35,30 +39,13 @@ fn analysed(robot: &Robot, depth: u32, modes: &[&str]) -> Analysis {
     analyze(robot, &Options { budget, modes, ..Options::default() }, &control()).unwrap()
 }
 
-/// SplitMix64 (Steele, Lea, Flood 2014), uniform in [0, 1).
-struct Random(u64);
-
-impl Random {
-    fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// A pose that the robot can take in a mode, within its limits.
-    fn pose(&mut self, analysis: &Analysis, mode: WorkingMode) -> Vec<f64> {
-        for _ in 0..1_000_000 {
-            let pose: Vec<f64> =
-                analysis.window.ranges.iter().map(|r| r.0 + self.uniform() * (r.1 - r.0)).collect();
-            let solutions = analysis.robot.inverse(&pose).unwrap();
-            if solutions.iter().any(|s| s.mode == mode && s.within_limits) {
-                return pose;
-            }
-        }
-        panic!("{} takes no pose in mode {mode}", analysis.robot.name);
-    }
+/// A pose that the robot can take in a mode, within its limits; `None` if a good many draws find none.
+fn pose_in(analysis: &Analysis, mode: WorkingMode, random: &mut Random) -> Option<Vec<f64>> {
+    let draw = |_| -> Vec<f64> { analysis.window.ranges.iter().map(|r| random.within(r.0, r.1)).collect() };
+    (0..100_000).map(draw).find(|pose| {
+        let solutions = analysis.robot.inverse(pose).unwrap();
+        solutions.iter().any(|s| s.mode == mode && s.within_limits)
+    })
 }
 
 /// Whether two poses are one, angles modulo full turns.

@@ -3,6 +3,8 @@
 use super::*;
 use aspecta::kinematics::demand::Margins;
 use aspecta::motion::plan::{End, PlanOptions, Planner, Refusal};
+use aspecta::robot::Platform;
+use random::Spread;
 
 /// How many random pairs of poses were planned, proved apart, and left undecided.
 fn pairs(name: &str, depth: u32, signs: &str, count: usize) -> [usize; 3] {
@@ -13,7 +15,7 @@ fn pairs(name: &str, depth: u32, signs: &str, count: usize) -> [usize; 3] {
     let mut random = Random(7);
     let mut seen = [0; 3];
     for _ in 0..count {
-        let [start, goal] = [random.pose(&analysis, mode), random.pose(&analysis, mode)];
+        let [start, goal] = [(); 2].map(|()| pose_in(&analysis, mode, &mut random).unwrap());
         match planner.plan(mode, &start, &goal, &PlanOptions::default()) {
             Ok(plan) => {
                 seen[0] += 1;
@@ -110,7 +112,7 @@ fn margins_are_kept_all_along() {
     let mut random = Random(3);
     let mut planned = 0;
     for _ in 0..60 {
-        let [start, goal] = [random.pose(&analysis, mode("+-")), random.pose(&analysis, mode("+-"))];
+        let [start, goal] = [(); 2].map(|()| pose_in(&analysis, mode("+-"), &mut random).unwrap());
         let Ok(plan) = planner.plan(mode("+-"), &start, &goal, &options) else { continue };
         planned += 1;
         assert_sound(&robot, &plan);
@@ -154,4 +156,45 @@ fn refusals_name_what_is_wrong() {
     let analysis = analysed(&rpr, 4, &[]);
     let beyond = Planner::new(&analysis).plan(mode("---"), &[0.0; 3], &[0.0; 3], &PlanOptions::default());
     assert!(matches!(beyond, Err(Refusal::BeyondLimit { end: End::Start, .. })), "{beyond:?}");
+}
+
+/// Robots nobody has seen: of every kind of leg and platform that can be analysed whole, in a window about a pose they can take.
+#[test]
+fn random_robots_are_planned_soundly() {
+    let mut seen = [0; 3];
+    for (platform, depth, count) in
+        [(Platform::PlanePoint, 8, 24), (Platform::PlaneBody, 4, 10), (Platform::TranslatingBody, 4, 10)]
+    {
+        for seed in 0..count {
+            let case = random::case(platform, Spread::Anywhere, seed);
+            let mut robot = case.robot;
+            let near = |(x, angle): (&f64, bool)| if angle { (x - 1.0, x + 1.0) } else { (x - 5.0, x + 5.0) };
+            let angles = platform.coordinates().iter().map(|c| c.angle);
+            robot.window = case.pose.iter().zip(angles).map(|end| Some(near(end))).collect();
+            let analysis = analysed(&robot, depth, &[]);
+            let mut planner = Planner::new(&analysis);
+            let mut random = Random(seed);
+            for mode in robot.working_modes().into_iter().take(2) {
+                let drawn = [(); 2].map(|()| pose_in(&analysis, mode, &mut random));
+                let [Some(start), Some(goal)] = drawn else { continue };
+                match planner.plan(mode, &start, &goal, &PlanOptions::default()) {
+                    Ok(plan) => {
+                        seen[0] += 1;
+                        assert_sound(&robot, &plan);
+                        for x in plan.waypoints.iter() {
+                            let within = |k: usize| analysis.window.fraction(k, x[k]).is_some();
+                            assert!((0..x.len()).all(within), "{x:?} of {robot:?}");
+                        }
+                    }
+                    Err(refusal) if refusal.is_proof() => {
+                        seen[1] += 1;
+                        assert_explained(&analysis, mode, [&start, &goal], &refusal);
+                    }
+                    Err(_) => seen[2] += 1,
+                }
+            }
+        }
+    }
+    println!("{} planned, {} proved apart, {} undecided", seen[0], seen[1], seen[2]);
+    assert!(seen[0] > 20 && seen[1] > 5, "{seen:?}");
 }

@@ -23,7 +23,7 @@ fn boxes_are_held_as_samples_are() {
         for trial in 0..60 {
             // Small boxes about poses of the robot, and larger ones.
             let modes = robot.working_modes();
-            let centre = random.pose(&analysis, modes[modes.len() - 1]);
+            let centre = pose_in(&analysis, modes[modes.len() - 1], &mut random).unwrap();
             let size = if trial % 2 == 0 { 0.01 } else { 0.05 };
             let range = |k: usize| {
                 let (lo, hi) = analysis.window.ranges[k];
@@ -37,7 +37,7 @@ fn boxes_are_held_as_samples_are() {
                         seen[0] += 1;
                         for _ in 0..200 {
                             let pose: Vec<f64> =
-                                ranges.iter().map(|(lo, hi)| lo + random.uniform() * (hi - lo)).collect();
+                                ranges.iter().map(|(lo, hi)| random.within(*lo, *hi)).collect();
                             assert!(is_in(&analysis, k, &pose), "{name} {pose:?} {class:?}");
                             if let (Some(id), Place::Inside(other)) = (aspect, analysis.locate(k, &pose)) {
                                 assert_eq!(*id, other);
