@@ -105,6 +105,8 @@ pub struct Row {
     pub line: u64,
     /// Its numbers, in the order of the columns asked for; angles in rad.
     pub values: Vec<f64>,
+    /// What its `mode` column says, if the header has one.
+    pub mode: Option<String>,
 }
 
 /// The rows of a CSV file (`-` is stdin), each with the columns of one of `layouts` (the first that fits).
@@ -163,7 +165,8 @@ impl<'a> Rows<'a> {
                 found
             }
         };
-        Ok(Some(Row { line: self.line, values: shape.read(&fields, self.degrees)? }))
+        let mode = shape.mode.and_then(|k| fields.get(k)).map(|&mode| mode.to_owned());
+        Ok(Some(Row { line: self.line, values: shape.read(&fields, self.degrees)?, mode }))
     }
 
     fn next_row(&mut self) -> Result<Option<Row>, Failure> {
@@ -210,6 +213,8 @@ struct Shape {
     fields: Vec<usize>,
     /// Fields a record must have; a headed file may hold more than is wanted, but no line of another length.
     width: usize,
+    /// The column called `mode`.
+    mode: Option<usize>,
 }
 
 impl Shape {
@@ -217,7 +222,7 @@ impl Shape {
         let find = |name: &String| header.iter().position(|field| field.eq_ignore_ascii_case(name));
         let fit = |c: &Columns| {
             let fields = c.names.iter().map(find).collect::<Option<Vec<_>>>()?;
-            Some(Self { columns: c.clone(), fields, width: header.len() })
+            Some(Self { columns: c.clone(), fields, width: header.len(), mode: find(&"mode".to_owned()) })
         };
         layouts.iter().find_map(fit).ok_or_else(|| {
             format!("the header `{}` lacks a column; {} wanted", header.join(","), wanted(layouts))
@@ -227,7 +232,7 @@ impl Shape {
     fn of_row(row: &[&str], layouts: &[Columns]) -> Result<Self, String> {
         let fit = layouts.iter().find(|c| c.names.len() == row.len());
         let columns = fit.ok_or_else(|| format!("{} fields; {} wanted", row.len(), wanted(layouts)))?;
-        Ok(Self { columns: columns.clone(), fields: (0..row.len()).collect(), width: row.len() })
+        Ok(Self { columns: columns.clone(), fields: (0..row.len()).collect(), width: row.len(), mode: None })
     }
 
     fn read(&self, record: &[&str], degrees: bool) -> Result<Vec<f64>, String> {

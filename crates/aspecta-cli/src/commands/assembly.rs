@@ -84,7 +84,8 @@ impl Assembly {
         modes.dedup();
         if solutions.is_empty() {
             let complete = robot.direct_certified(&q)?.complete;
-            let modes = AssemblyModes { q, complete, solutions: Vec::new(), shared: Vec::new() };
+            let (solutions, numbered_among, shared) = Default::default();
+            let modes = AssemblyModes { q, complete, solutions, numbered_among, shared };
             return self.print(out, &robot, &Found { modes, change: None, explained: None });
         }
         if through {
@@ -127,7 +128,7 @@ impl Assembly {
                 Format::Csv => print_csv(out, robot, &found.modes)?,
                 Format::Table => print_list(out, robot, &found.modes, self.shown.deg)?,
             }
-            return Ok(Answer::from(found.modes.complete));
+            return Ok(Answer::from(found.modes.complete && !found.modes.solutions.is_empty()));
         };
         let answer = planning::print(out, robot, change, &self.moving, self.shown)?;
         if let (Format::Table, Some((folds, cusps))) = (self.shown.format(), &found.explained) {
@@ -149,6 +150,9 @@ fn print_list(
     let count = found.solutions.len();
     let all = if found.complete { "proved to be all" } else { "not proved to be all" };
     writeln!(out, "{}: {count} direct solutions at {} ({all})", robot.name, joints.sentence(&found.q))?;
+    if count == 0 {
+        return Ok(());
+    }
     let right = |name: String| (name, Align::Right);
     let headings = [right("solution".into())].into_iter().chain(pose.headings().map(right));
     let last = [
@@ -158,8 +162,8 @@ fn print_list(
     ];
     let mut table = Table::new(headings.chain(last));
     for s in &found.solutions {
-        let aspect = match (s.aspect, s.solution.within_limits) {
-            (Some(id), _) => id.to_string(),
+        let aspect = match (s.rank, s.solution.within_limits) {
+            (Some((k, of)), _) => format!("{k} of {of}"),
             (None, false) => "beyond limits".into(),
             (None, true) => "undecided".into(),
         };
@@ -171,12 +175,17 @@ fn print_list(
         let list = shared.solutions.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
         writeln!(
             out,
-            "aspect {}: solutions {list} can be changed into one another without a singularity (certified)",
-            shared.aspect
+            "solutions {list} lie in one aspect: they can be changed into one another without a singularity (certified)"
         )?;
     }
     if found.shared.is_empty() && count > 1 {
-        writeln!(out, "no two of them are known to lie in one aspect")?;
+        let known = found.solutions.iter().all(|s| s.aspect.is_some());
+        let word = if known {
+            "no two of them lie in one aspect (certified)"
+        } else {
+            "no two of them are known to lie in one aspect"
+        };
+        writeln!(out, "{word}")?;
     }
     Ok(())
 }

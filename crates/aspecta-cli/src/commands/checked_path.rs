@@ -59,6 +59,17 @@ impl PathArgs {
             self.from.start.as_deref().map(|s| input::list("--start", s, &pose, self.deg)).transpose()?;
         let layout = [if mode.is_some() { pose } else { joints }];
         let rows = input::rows(&self.path, &layout, self.deg)?;
+        if let Some(mode) = mode
+            && let Some((line, other)) = rows.iter().find_map(|row| {
+                let other = row.mode.as_ref().filter(|other| **other != mode.to_string())?;
+                Some((row.line, other))
+            })
+        {
+            return Err(Failure::Input(format!(
+                "{}:{line}: this line is in working mode {other}, but --mode is {mode}: check the lines of each mode by themselves",
+                if self.path == "-" { "stdin" } else { &self.path }
+            )));
+        }
         let lines: Vec<_> = rows.into_iter().map(|row| row.values).collect();
         let check = match mode {
             Some(mode) => check_poses(&robot, &lines, mode, &options)?,

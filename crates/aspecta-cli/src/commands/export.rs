@@ -5,6 +5,7 @@ use super::target::Target;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
 use crate::output::note;
+use aspecta::kinematics::Singularity;
 use aspecta_cli::export::mjcf;
 use clap::{Args, Subcommand};
 use std::io::Write;
@@ -63,6 +64,13 @@ impl Mjcf {
             None => start::anywhere(&robot, mode)?,
         };
         let model = mjcf::model(&robot, &start);
+        let state = robot.state(&start.pose, &start.q)?;
+        if state.singularity != Singularity::Regular {
+            let kind = state.singularity.name();
+            note(&format!(
+                "the model starts in a singular configuration ({kind}): it may leave it either way"
+            ));
+        }
         match target {
             Some(target) => writeln!(out, "written: {}", target.write(model)?.display())?,
             None => out.write_all(model.as_bytes())?,

@@ -75,13 +75,12 @@ impl Modes {
 fn print(out: &mut dyn Write, robot: &Robot, graph: &ModeGraph, degrees: bool) -> Result<(), Failure> {
     let labels = Labels::pose(robot, degrees);
     let right = |name: &str| (name.to_owned(), Align::Right);
-    writeln!(
-        out,
-        "{}: {} aspects, {} crossings found, each proved",
-        robot.name,
-        graph.aspects.len(),
-        graph.crossings.len()
-    )?;
+    let (aspects, count) = (graph.aspects.len(), graph.crossings.len());
+    if count == 0 {
+        writeln!(out, "{}: {aspects} aspects, no crossings found", robot.name)?;
+        return Ok(());
+    }
+    writeln!(out, "{}: {aspects} aspects, {count} crossings found, each proved", robot.name)?;
     let headings = labels.headings().map(|name| (name, Align::Right));
     let first = [right("aspects"), right("modes"), right("det A"), right("leg")];
     let mut table = Table::new(first.into_iter().chain(headings).chain([right("clearance")]));

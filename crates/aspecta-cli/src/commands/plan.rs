@@ -7,6 +7,7 @@ use crate::output::ShownArgs;
 use aspecta::kinematics::WorkingMode;
 use aspecta::motion::modes::{Configuration, ModeGraph, NoRoute, Route};
 use aspecta::motion::plan::Planner;
+use aspecta::motion::traverse::PoseSet;
 use clap::Args;
 use std::io::Write;
 
@@ -56,6 +57,8 @@ impl Plan {
         let columns = Columns::pose(&robot);
         let from = input::list("--from", &self.from, &columns, self.shown.deg)?;
         let to = input::list("--to", &self.to, &columns, self.shown.deg)?;
+        // What does not fit the robot is told before the aspects are looked for.
+        PoseSet::Poses(vec![from.clone(), to.clone()]).check(&robot)?;
         let mode = input::mode(&robot, &self.mode)?;
         let to_mode = self.to_mode.as_deref().map_or(Ok(mode), |text| input::mode(&robot, text))?;
         let through = self.through_modes || mode != to_mode;

@@ -14,7 +14,7 @@ use aspecta::motion::modes::{NoRoute, Route};
 use aspecta::motion::plan::{Plan, PlanOptions};
 use aspecta::motion::time::{Waypoint, trajectory};
 use aspecta::motion::{Clearance, Joined, Least, PathCheck, PathOptions, ProfilePoint, check_poses};
-use aspecta::paving::Budget;
+use aspecta::paving::{Budget, Stop};
 use aspecta::robot::Robot;
 use aspecta_cli::file;
 use aspecta_cli::report::motion::Motion;
@@ -43,10 +43,15 @@ impl Analysing {
         work: impl FnOnce(&Analysis, &aspecta::paving::Control<'_>) -> Result<T, Failure>,
     ) -> Result<T, Failure> {
         let coarse = Budget { depth: Some(if robot.dof() == 2 { 11 } else { 7 }), ..Budget::default() };
+        // In the plane all modes cost nothing to speak of, and aspects then have the numbers of `analyze`.
+        let modes = if robot.dof() == 2 { &[] } else { modes };
         let options =
             Options { budget: self.budget.unwrap_or(coarse), modes: modes.to_vec(), ..Options::default() };
         watched(self.threads, |control| {
             let analysis = analyze(robot, &options, control)?;
+            if analysis.run.stop == Stop::Cancelled {
+                note("interrupted: what follows rests on the aspects found so far");
+            }
             work(&analysis, control)
         })?
     }
@@ -95,15 +100,15 @@ struct Refused {
 /// The motion to be written besides.
 #[derive(Args)]
 pub struct Moving {
-    /// Write the motion under joint limits to this CSV file: time, pose, joints, their speeds and accelerations. The robot rests at each
+    /// Write the motion under joint limits to this CSV file: time, pose, joints, their speeds and accelerations. It needs --speed and --acceleration. The robot rests at each
     /// waypoint, but not where a leg changes its posture
     #[arg(long, value_name = "FILE", requires = "speed", requires = "acceleration")]
     trajectory: Option<PathBuf>,
     /// The greatest speed of the joints: one number for all, or one a joint
-    #[arg(long, value_name = "V[,V…]", requires = "trajectory")]
+    #[arg(long, value_name = "V[,V…]", requires = "trajectory", allow_hyphen_values = true)]
     speed: Option<String>,
     /// The greatest acceleration of the joints: one number for all, or one a joint
-    #[arg(long, value_name = "A[,A…]", requires = "trajectory")]
+    #[arg(long, value_name = "A[,A…]", requires = "trajectory", allow_hyphen_values = true)]
     acceleration: Option<String>,
     /// Rows a second
     #[arg(long, value_name = "HZ", default_value_t = 100.0)]
@@ -153,7 +158,9 @@ impl Moving {
         let motion = trajectory(&route.pieces(robot), &limits)?;
         timing::check_length(&motion, self.rate)?;
         let written = timing::write("--trajectory", path, robot, &motion, self.rate)?;
-        Ok(Some(format!("{written}\ntotal time: {} s", brief(motion.total_time()))))
+        let (time, strays) =
+            (brief(motion.total_time()), Labels::joints(robot, degrees).sentence(motion.path_error()));
+        Ok(Some(format!("{written}\ntotal time: {time} s; joints stray from the plan by about {strays}")))
     }
 }
 
@@ -284,7 +291,13 @@ fn print_route(
         robot.length_unit
     )?;
     let proved = checks.iter().all(PathCheck::is_sound);
-    let word = if proved { "yes, certified, limits and margins included" } else { "not proved" };
+    let word = match (proved, route.crossings.len()) {
+        (false, _) => "not proved".into(),
+        (true, 0) => "yes, certified, limits and margins included".into(),
+        (true, count) => format!(
+            "no parallel one, and serial ones at the {count} changes of posture only: certified, limits and margins included"
+        ),
+    };
     writeln!(out, "singularity-free  {word}")?;
     let least = |of: fn(&Clearance) -> &Least| {
         let all = checks.iter().filter_map(|c| Some(of(c.clearance.as_ref()?)));
@@ -294,7 +307,14 @@ fn print_route(
         ("min |det A|", least(|c| &c.det_a), det_a_unit(robot)),
         ("min |det Â|", least(|c| &c.parallel), String::new()),
     ];
-    for (name, least, unit) in named {
+    let legs = (0..robot.dof()).filter(|&j| robot.legs[j].actuator.postures() == 2);
+    let all =
+        legs.flat_map(|j| checks.iter().filter_map(move |c| Some((j, &c.clearance.as_ref()?.serial[j]))));
+    let serial = all.min_by(|a, b| a.1.at_least.total_cmp(&b.1.at_least));
+    let serial = serial.map(|(j, least)| (format!("min |B_{0}{0}|/max", j + 1), Some(least), String::new()));
+    for (name, least, unit) in
+        named.into_iter().map(|(name, least, unit)| (name.to_owned(), least, unit)).chain(serial)
+    {
         let Some(least) = least else { continue };
         writeln!(out, "{name:<18}{}{unit}, at {}", bounds(least), labels.sentence(&least.pose))?;
     }

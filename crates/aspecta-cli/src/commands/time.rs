@@ -27,10 +27,10 @@ pub struct Time {
     #[command(flatten)]
     path: PathArgs,
     /// The greatest speed of the joints: one number for all, or one a joint
-    #[arg(long, value_name = "V[,V…]")]
+    #[arg(long, value_name = "V[,V…]", allow_hyphen_values = true)]
     speed: String,
     /// The greatest acceleration of the joints: one number for all, or one a joint
-    #[arg(long, value_name = "A[,A…]")]
+    #[arg(long, value_name = "A[,A…]", allow_hyphen_values = true)]
     acceleration: String,
     /// Rows a second
     #[arg(long, value_name = "HZ", default_value_t = 100.0)]

@@ -70,12 +70,19 @@ pub fn write(
     Ok(format!("{} rows, {rate} a second: {}", motion.rows(rate).count(), written.display()))
 }
 
-/// The motion as CSV.
+/// The motion as CSV, the working mode last.
 pub fn rows(out: &mut dyn Write, robot: &Robot, motion: &Trajectory, rate: f64) -> Result<(), Failure> {
     let mut csv = csv::Writer::from_writer(out);
     let names = Columns::pose(robot).and(&Columns::joints(robot)).names;
     let rates = |letter: char| (1..=robot.dof()).map(move |j| format!("{letter}{j}"));
-    csv.write_record(["time".to_owned()].into_iter().chain(names).chain(rates('v')).chain(rates('a')))?;
+    csv.write_record(
+        ["time".to_owned()]
+            .into_iter()
+            .chain(names)
+            .chain(rates('v'))
+            .chain(rates('a'))
+            .chain(["mode".into()]),
+    )?;
     for row in motion.rows(rate) {
         let numbers = [&row.time]
             .into_iter()
@@ -83,7 +90,9 @@ pub fn rows(out: &mut dyn Write, robot: &Robot, motion: &Trajectory, rate: f64) 
             .chain(&row.q)
             .chain(&row.velocity)
             .chain(&row.acceleration);
-        csv.write_record(numbers.map(|x| exact(*x)))?;
+        // The posture of every leg there, numerical.
+        let mode = robot.jacobians(&row.pose, &row.q)?.mode().to_string();
+        csv.write_record(numbers.map(|x| exact(*x)).chain([mode]))?;
     }
     csv.flush()?;
     Ok(())

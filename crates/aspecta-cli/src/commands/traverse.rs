@@ -24,7 +24,7 @@ pub struct Traverse {
     #[command(flatten)]
     set: Set,
     /// With --poses: also say through which groups of aspects every pose can be reached if legs change their postures
-    #[arg(long, requires = "poses")]
+    #[arg(long)]
     through_modes: bool,
     /// A file written by `aspecta domains --save`: also say which uniqueness domains hold the set (numerical)
     #[arg(long, value_name = "FILE")]
@@ -81,7 +81,13 @@ struct InDomain {
 impl Traverse {
     pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
         let robot = input::robot(&self.robot)?;
+        if self.through_modes && self.set.poses.is_none() {
+            return Err(Failure::Input(
+                "--through-modes is about separate poses: give them with --poses".into(),
+            ));
+        }
         let set = self.set.read(&robot, self.deg)?;
+        set.check(&robot)?;
         let map = self.map.as_deref().map(|path| read_map(path, &robot)).transpose()?;
         let found = self.analysing.with(&robot, &[], |analysis, _| {
             let graph = self.through_modes.then(|| ModeGraph::new(analysis));
@@ -215,9 +221,9 @@ fn print(out: &mut dyn Write, robot: &Robot, found: &Traversability, degrees: bo
                 "yes, certified (one aspect; its number is not known at this resolution)".into()
             }
             Holds::NotWhole { pose, constraint } => {
-                format!("no, certified: {}, near {}", what(*constraint), labels.brief(pose))
+                format!("no, certified: {}, near {}", what(*constraint), labels.sentence(pose))
             }
-            Holds::Undecided { pose } => format!("undecided, near {}", labels.brief(pose)),
+            Holds::Undecided { pose } => format!("undecided, near {}", labels.sentence(pose)),
         };
         table.row([class.mode.to_string(), class.det_a.to_string(), verdict]);
     }

@@ -15,8 +15,15 @@ fn a_plan_is_a_path_that_the_check_accepts() {
     fs::write(&path, stdout(&format!("{arguments} --csv"))).unwrap();
     let check = output(&format!("check-path five-bar {} --mode +-", path.display()));
     assert_eq!(check.status.code(), Some(0), "{}", text(&check.stdout));
+    let other = output(&format!("check-path five-bar {} --mode ++", path.display()));
+    assert_eq!(other.status.code(), Some(2));
+    assert!(
+        text(&other.stderr).contains(":2: this line is in working mode +-, but --mode is ++"),
+        "{}",
+        text(&other.stderr)
+    );
     let shown = stdout(arguments);
-    assert!(shown.contains("singularity-free  yes, certified"), "{shown}");
+    assert!(shown.contains("singularity-free  yes, certified") && shown.contains("|/max"), "{shown}");
     let plan = json(&format!("{arguments} --json"));
     let ends = |k: usize| numbers(&plan["stretches"][0]["waypoints"][k]);
     assert_eq!(ends(0), [4.0, 7.0]);
@@ -52,7 +59,7 @@ fn a_plan_is_written_as_a_motion() {
     let shown = aspecta(arguments).arg(&path).output().unwrap();
     assert!(text(&shown.stdout).contains("total time: "), "{}", text(&shown.stderr));
     let motion = fs::read_to_string(&path).unwrap();
-    assert!(motion.starts_with("time,x,y,q1,q2,v1,v2,a1,a2\n0.0,4.0,7.0,"), "{motion}");
+    assert!(motion.starts_with("time,x,y,q1,q2,v1,v2,a1,a2,mode\n0.0,4.0,7.0,"), "{motion}");
     let alone = output("plan five-bar --from 4,7 --to 4,7 --mode ++ --trajectory motion.csv");
     assert_eq!(alone.status.code(), Some(2));
 }
@@ -61,7 +68,7 @@ fn a_plan_is_written_as_a_motion() {
 fn assembly_modes_are_listed_by_aspect() {
     let shown = stdout("assembly 3-rpr --q 14.98,15.38,12 --budget depth=6");
     assert!(shown.contains("6 direct solutions") && shown.contains("proved to be all"), "{shown}");
-    assert_eq!(shown.matches("can be changed into one another").count(), 2, "{shown}");
+    assert_eq!(shown.matches("lie in one aspect: they can be changed").count(), 2, "{shown}");
     let shown = stdout("assembly 3-rpr --q 14.98,15.38,12 --from 2 --to 3 --explain --budget depth=6");
     assert!(shown.contains("round the cusp at") && shown.contains("vanish"), "{shown}");
 }
@@ -108,6 +115,11 @@ fn mistakes_are_named() {
         ("plan hexa --from 0,0,-600,0,0,0 --to 0,0,-600,0,0,0 --mode ------", "6 degrees of freedom"),
         ("assembly 3-rpr --q 14.98,15.38,12 --from 1 --to 9", "has 6 direct solutions"),
         ("assembly 3-rpr --q 14.98,15.38 ", "has 3 joint coordinates"),
+        ("traverse five-bar --box 2:6,8:10 --through-modes", "give them with --poses"),
+        (
+            "plan five-bar --from 4,7 --to 1,10 --mode +- --trajectory m.csv --speed -1 --acceleration 2",
+            "speed limit of joint 1 is -1",
+        ),
         ("traverse five-bar --box 6:2,8:10", "range 1 ends before it begins"),
         ("traverse five-bar --box 2:6", "has 2 pose coordinates"),
         ("traverse five-bar --box 2:6,8:10 --map five-bar", "give a file written by"),

@@ -109,6 +109,14 @@ impl Analysis {
         self.classes.iter().position(|class| class.mode == mode && class.det_a == det_a)
     }
 
+    /// Which of its class's aspects, the largest first, the one with this [`Aspect::id`] is, from 1, and how many the class has. Unlike its id this
+    /// does not depend on which modes were analysed.
+    pub fn rank(&self, id: usize) -> Option<(usize, usize)> {
+        let (class, _) = self.aspect(id)?;
+        let aspects = &self.classes[class].aspects;
+        Some((1 + aspects.iter().position(|aspect| aspect.id == id)?, aspects.len()))
+    }
+
     /// The [`Aspect::id`] of the aspect that a pose of class `class` lies in; `None` if the pose is not in the class, or lies in
     /// an undecided cell from which no certified ascent leads into a cell of an aspect. Certified where `Some`.
     pub fn aspect_at(&self, class: usize, pose: &[f64]) -> Option<usize> {

@@ -8,7 +8,7 @@ use super::plan::Plan;
 use super::plan::refusal::aspect_at;
 use crate::aspect::{Analysis, DetSign};
 use crate::domain::cusps::{Cusp, CuspError, Options, cusps};
-use crate::kinematics::{KinematicsError, Solution};
+use crate::kinematics::{KinematicsError, Solution, WorkingMode};
 use crate::num::without_turns;
 use crate::paving::Control;
 use crate::robot::Robot;
@@ -23,6 +23,8 @@ pub struct AssemblyModes {
     pub complete: bool,
     /// The solutions, in the order of [`Robot::direct`].
     pub solutions: Vec<AssemblyMode>,
+    /// The modes among which aspects are numbered.
+    pub numbered_among: Vec<WorkingMode>,
     /// The aspects that hold more than one of them: between those a change without a singularity exists.
     pub shared: Vec<SharedAspect>,
 }
@@ -37,6 +39,8 @@ pub struct AssemblyMode {
     pub solution: Solution,
     /// The [`crate::aspect::Aspect::id`] (certified); `None` if it is singular, beyond a limit or too near to either to tell.
     pub aspect: Option<usize>,
+    /// Which of the aspects of its mode and sign of det A, the largest first, and of how many: [`Analysis::rank`].
+    pub rank: Option<(usize, usize)>,
 }
 
 /// An aspect with several solutions.
@@ -59,7 +63,8 @@ pub fn assembly_modes(analysis: &Analysis, q: &[f64]) -> Result<AssemblyModes, K
         let sign = if solution.det_a > 0.0 { DetSign::Positive } else { DetSign::Negative };
         let class = analysis.class_of(solution.mode, sign).filter(|_| solution.within_limits);
         let aspect = class.and_then(|class| aspect_at(analysis, class, &solution.pose));
-        AssemblyMode { number: k + 1, solution, aspect }
+        let rank = aspect.and_then(|id| analysis.rank(id));
+        AssemblyMode { number: k + 1, solution, aspect, rank }
     };
     let solutions: Vec<AssemblyMode> = found.solutions.into_iter().enumerate().map(mode).collect();
     let mut shared: Vec<SharedAspect> = Vec::new();
@@ -70,7 +75,8 @@ pub fn assembly_modes(analysis: &Analysis, q: &[f64]) -> Result<AssemblyModes, K
         }
     }
     shared.retain(|s| s.solutions.len() > 1);
-    Ok(AssemblyModes { q: q.to_vec(), complete, solutions, shared })
+    let numbered_among = analysis.modes.iter().map(|m| m.mode).collect();
+    Ok(AssemblyModes { q: q.to_vec(), complete, solutions, numbered_among, shared })
 }
 
 /// A place of a motion where the number of direct solutions changes: elsewhere, two poses of the same joint vector meet at a parallel

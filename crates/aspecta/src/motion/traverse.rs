@@ -92,9 +92,7 @@ pub fn traversability(
     graph: Option<&ModeGraph>,
     set: PoseSet,
 ) -> Result<Traversability, KinematicsError> {
-    for pose in set.corners() {
-        analysis.robot.check_pose(&pose)?;
-    }
+    set.check(&analysis.robot)?;
     let verdict = |k: usize| {
         let class = &analysis.classes[k];
         ClassHolds { mode: class.mode, det_a: class.det_a, holds: holds(analysis, k, &set) }
@@ -108,6 +106,14 @@ pub fn traversability(
 }
 
 impl PoseSet {
+    /// Whether it is a set of poses of a robot.
+    ///
+    /// # Errors
+    /// [`KinematicsError`] if a pose does not fit the robot.
+    pub fn check(&self, robot: &Robot) -> Result<(), KinematicsError> {
+        self.corners().iter().try_for_each(|pose| robot.check_pose(pose))
+    }
+
     /// Poses that are numbers only if the set is.
     fn corners(&self) -> Vec<Vec<f64>> {
         match self {

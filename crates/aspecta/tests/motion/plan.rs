@@ -46,7 +46,7 @@ fn assert_explained(analysis: &Analysis, mode: WorkingMode, ends: [&[f64]; 2], r
             assert_eq!(det(ends[0]).unwrap() > 0.0, sign.factor() > 0);
             assert!(det(ends[0]).unwrap() * det(ends[1]).unwrap() < 0.0);
         }
-        Refusal::DifferentAspects { start, goal } => {
+        Refusal::DifferentAspects { start, goal, .. } => {
             assert_ne!(start, goal);
             assert!(det(ends[0]).unwrap() * det(ends[1]).unwrap() > 0.0);
         }

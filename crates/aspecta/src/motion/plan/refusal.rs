@@ -73,10 +73,14 @@ pub enum Refusal {
     OppositeSigns(DetSign),
     /// The two poses lie in two aspects of one class (certified).
     #[error(
-        "no such path exists, proved: the start lies in aspect {start} and the goal in aspect {goal}, which are apart although mode and sign of \
-         det A are the same"
+        "no such path exists, proved: the start and the goal lie in two aspects of mode {mode}, both with det A {}; changes of working mode \
+         may lead from one to the other (--through-modes)", word(*.det_a)
     )]
     DifferentAspects {
+        /// The mode.
+        mode: WorkingMode,
+        /// The sign of det A.
+        det_a: DetSign,
         /// The [`crate::aspect::Aspect::id`] of the start.
         start: usize,
         /// That of the goal.
@@ -187,7 +191,9 @@ pub(super) fn common_aspect(
     let class = analysis.class_of(mode, det_a).ok_or(Refusal::Mode(mode))?;
     let [start, goal] = ends.map(|pose| aspect_at(analysis, class, pose));
     match (start, goal) {
-        (Some(start), Some(goal)) if start != goal => Err(Refusal::DifferentAspects { start, goal }),
+        (Some(start), Some(goal)) if start != goal => {
+            Err(Refusal::DifferentAspects { mode, det_a, start, goal })
+        }
         _ => Ok((class, start.or(goal))),
     }
 }
