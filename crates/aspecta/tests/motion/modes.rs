@@ -159,17 +159,17 @@ fn margins_hold_through_crossings() {
     let robot = robot("five-bar");
     let analysis = analysed(&robot, 10, &[]);
     let graph = ModeGraph::new(&analysis);
-    let pose = [4.0, 9.0];
+    let pose = [4.0, 10.5];
     let [start, goal] = ["++", "--"].map(|signs| Configuration { pose: &pose, mode: mode(signs) });
     let route = |parallel, serial| {
         let options = PlanOptions { margins: Margins { parallel, serial }, ..PlanOptions::default() };
         Planner::new(&analysis).route(&graph, start, goal, &options)
     };
-    let wide = route(0.6, 0.0).unwrap();
-    assert!(wide.crossings.iter().all(|c| c.clearance >= 0.6));
+    let wide = route(0.4, 0.0).unwrap();
+    assert!(wide.crossings.iter().all(|c| c.clearance >= 0.4));
     for stretch in &wide.stretches {
         // Rows of A are 2 M long: 2·5 and 2·8.
-        assert!(sampled(&robot, stretch).iter().all(|(det, _)| det.abs() / 160.0 > 0.6 - 1e-9));
+        assert!(sampled(&robot, stretch).iter().all(|(det, _)| det.abs() / 160.0 > 0.4 - 1e-9));
     }
     assert_eq!(route(0.1, 0.1).unwrap_err(), NoRoute::SerialMargin);
 }

@@ -9,9 +9,9 @@ use crate::robot::{Robot, Window};
 use std::f64::consts::TAU;
 
 /// Samples of a segment's cost, at least.
-const FEWEST: f64 = 4.0;
+const FEWEST: f64 = 3.0;
 /// And at most.
-const MOST: f64 = 48.0;
+const MOST: f64 = 16.0;
 
 /// The cost of paths in one class of aspects.
 pub(super) struct Cost<'a> {
@@ -84,7 +84,7 @@ impl<'a> Cost<'a> {
         if self.is_length() {
             return length;
         }
-        let count = (64.0 * length / self.size).clamp(FEWEST, MOST).ceil() as usize;
+        let count = (24.0 * length / self.size).clamp(FEWEST, MOST).ceil() as usize;
         let at = |i: usize| -> Pose {
             let t = (i as f64 + 0.5) / count as f64;
             std::array::from_fn(|k| a[k] + t * (b[k] - a[k]))
