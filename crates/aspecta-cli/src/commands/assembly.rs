@@ -173,10 +173,12 @@ fn print_list(
     write!(out, "{table}")?;
     for shared in &found.shared {
         let list = shared.solutions.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
-        writeln!(
-            out,
-            "solutions {list} lie in one aspect: they can be changed into one another without a singularity (certified)"
-        )?;
+        let word = if shared.certified {
+            "lie in one aspect: they can be changed into one another without a singularity (certified)"
+        } else {
+            "may lie in one aspect, which is not proved to be one in boxes as fine as these, and no path was found that would join them"
+        };
+        writeln!(out, "solutions {list} {word}")?;
     }
     if found.shared.is_empty() && count > 1 {
         let known = found.solutions.iter().all(|s| s.aspect.is_some());
@@ -219,8 +221,9 @@ fn explain(
         let what = if before > after { "vanish" } else { "appear" };
         writeln!(
             out,
-            "  at {:.1} % of the way, two other poses of the joint vector {what} ({before} -> {after}): they meet at {}",
-            100.0 * fold.at,
+            "  segment {}, t = {}: two other poses of the joint vector {what} ({before} -> {after}); they meet at {}",
+            fold.segment,
+            number(fold.t),
             pose.sentence(&fold.meeting)
         )?;
     }

@@ -42,6 +42,9 @@ A crossing is proved by intervals: det A keeps its sign while the leg goes throu
 det A are never joined, which is proved too; that there are no other crossings is not.
 Exit status: 0 done; 2 bad input.";
 
+/// What is to be said of a group whose aspects are not all proved to be one.
+pub const AS_FAR: &str = "crossings certified, but not that each aspect is one in boxes as fine as these";
+
 #[derive(Serialize)]
 struct Document<'a> {
     format_version: u32,
@@ -94,10 +97,7 @@ fn print(out: &mut dyn Write, robot: &Robot, graph: &ModeGraph, degrees: bool) -
         table.row(first.into_iter().chain(labels.numbers(&c.pose)).chain([brief(c.clearance)]));
     }
     write!(out, "{table}")?;
-    writeln!(
-        out,
-        "\nAspects that can be reached from one another without a parallel singularity (certified)"
-    )?;
+    writeln!(out, "\nAspects that can be reached from one another without a parallel singularity")?;
     for group in &graph.groups {
         let name = |id: &usize| {
             let mode = graph
@@ -107,7 +107,8 @@ fn print(out: &mut dyn Write, robot: &Robot, graph: &ModeGraph, degrees: bool) -
                 .map(|a| format!(" ({} det A {})", a.mode, a.det_a));
             format!("{id}{}", mode.unwrap_or_default())
         };
-        writeln!(out, "  {}", group.iter().map(name).collect::<Vec<_>>().join(", "))?;
+        let word = if graph.is_proved(group) { "certified" } else { AS_FAR };
+        writeln!(out, "  {}: {word}", group.iter().map(name).collect::<Vec<_>>().join(", "))?;
     }
     Ok(())
 }

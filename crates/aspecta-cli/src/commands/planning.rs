@@ -10,8 +10,9 @@ use crate::failure::{Answer, Failure};
 use crate::output::{Align, FORMAT_VERSION, Format, ShownArgs, Table, brief, exact, json, note};
 use aspecta::aspect::{Analysis, Options, analyze};
 use aspecta::kinematics::WorkingMode;
+use aspecta::motion::crossing::Crossing;
 use aspecta::motion::modes::{NoRoute, Route};
-use aspecta::motion::plan::{Plan, PlanOptions};
+use aspecta::motion::plan::{Plan, PlanOptions, Refusal};
 use aspecta::motion::time::{Waypoint, trajectory};
 use aspecta::motion::{Clearance, Joined, Least, PathCheck, PathOptions, ProfilePoint, check_poses};
 use aspecta::paving::{Budget, Stop};
@@ -201,18 +202,21 @@ pub fn print(
     match &planned.result {
         Err(refusal) if refusal.is_bad_input() => Err(Failure::Input(refusal.to_string())),
         Err(refusal) => {
+            let told = format!("{name}: {refusal}{}", advice(refusal));
             match format {
                 Format::Json => {
                     let (reason, proved) = (refusal.to_string(), refusal.is_proof());
                     json(out, &Document { refusal: Some(Refused { reason, proved }), ..document })?;
                 }
-                Format::Csv => note(&format!("{name}: {refusal}")),
-                Format::Table => writeln!(out, "{name}: {refusal}")?,
+                Format::Csv => note(&told),
+                Format::Table => writeln!(out, "{told}")?,
             }
             Ok(Answer::No)
         }
         Ok(route) => {
             let checks = checks(robot, route)?;
+            let crossed = |c: &Crossing| c.is_proved(robot, route.stretches[0].margins);
+            let is_proved = checks.iter().all(PathCheck::is_sound) && route.crossings.iter().all(crossed);
             let mut written = moving.write(robot, route, shown.deg)?.into_iter().collect::<Vec<_>>();
             if let (Some(directory), Some(page)) = (&moving.out, &planned.page) {
                 let path =
@@ -225,13 +229,24 @@ pub fn print(
                     json(out, &document)?;
                 }
                 Format::Csv => print_csv(out, robot, route)?,
-                Format::Table => print_route(out, robot, route, &checks, shown.deg)?,
+                Format::Table => print_route(out, robot, route, &checks, is_proved, shown.deg)?,
             }
             for line in written {
                 if format == Format::Table { writeln!(out, "{line}")? } else { note(&line) }
             }
-            Ok(Answer::Yes)
+            Ok(Answer::from(is_proved))
         }
+    }
+}
+
+/// Which option may help.
+fn advice(refusal: &NoRoute) -> &'static str {
+    match refusal {
+        NoRoute::SerialMargin => " (--avoid M,0)",
+        NoRoute::Unknown(_) | NoRoute::NotFound { .. } | NoRoute::Plan(Refusal::NotFound { .. }) => {
+            " (--budget)"
+        }
+        _ => "",
     }
 }
 
@@ -262,6 +277,7 @@ fn print_route(
     robot: &Robot,
     route: &Route,
     checks: &[PathCheck],
+    is_proved: bool,
     degrees: bool,
 ) -> Result<(), Failure> {
     let labels = Labels::pose(robot, degrees);
@@ -290,8 +306,7 @@ fn print_route(
         brief(length),
         robot.length_unit
     )?;
-    let proved = checks.iter().all(PathCheck::is_sound);
-    let word = match (proved, route.crossings.len()) {
+    let word = match (is_proved, route.crossings.len()) {
         (false, _) => "not proved".into(),
         (true, 0) => "yes, certified, limits and margins included".into(),
         (true, count) => format!(

@@ -1,6 +1,7 @@
 //! `aspecta traverse`: which aspects hold a whole set of poses.
 
 use super::mapping::Source;
+use super::modes::AS_FAR;
 use super::planning::Analysing;
 use super::queries::Labels;
 use crate::failure::{Answer, Failure};
@@ -249,10 +250,11 @@ fn print_groups(out: &mut dyn Write, found: &Traversability) -> Result<(), Failu
         )?;
     }
     for group in &found.groups {
-        let ids = group.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
+        let ids = group.aspects.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
+        let word = if group.certified { "certified" } else { AS_FAR };
         writeln!(
             out,
-            "through changes of working mode: every pose can be reached within aspects {ids} (certified)"
+            "through changes of working mode: every pose can be reached within aspects {ids} ({word})"
         )?;
     }
     Ok(())

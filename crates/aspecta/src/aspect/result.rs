@@ -82,7 +82,7 @@ impl Analysis {
     /// Where `pose` is, as class `class` (index into [`Analysis::classes`]) sees it; angles count modulo 2π. A pose on the
     /// boundary of two cells may get the answer of either; one off the slice is outside.
     pub fn locate(&self, class: usize, pose: &[f64]) -> Place {
-        let pose: Vec<f64> = pose.iter().enumerate().map(|(k, &x)| self.window.turned_in(k, x)).collect();
+        let pose = self.window.turned(pose);
         let labels = &self.labels[class];
         let label = |node: u32| labels.binary_search_by_key(&node, |l| l.0).ok().map(|k| labels[k].1);
         let found = self.paving.descend_to(&pose, &mut |node| label(node).is_some());
@@ -107,6 +107,13 @@ impl Analysis {
     /// The class (index into [`Analysis::classes`]) of a mode and a sign of det A, if it was analysed.
     pub fn class_of(&self, mode: WorkingMode, det_a: DetSign) -> Option<usize> {
         self.classes.iter().position(|class| class.mode == mode && class.det_a == det_a)
+    }
+
+    /// Whether what is shown as the aspect with this [`Aspect::id`] is proved to be one: no aspect can hide in undecided boxes, and all its
+    /// summits lie in one connected piece (`docs/theory.md`, 4). Else two poses in it may lie in two aspects.
+    pub fn is_one(&self, id: usize) -> bool {
+        self.aspect(id)
+            .is_some_and(|(class, aspect)| self.classes[class].high.is_some() && aspect.pieces == 1)
     }
 
     /// Which of its class's aspects, the largest first, the one with this [`Aspect::id`] is, from 1, and how many the class has. Unlike its id this

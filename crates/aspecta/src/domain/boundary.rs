@@ -55,7 +55,7 @@ impl BoundaryVertex {
         pose: [f64; N],
         faces: [Option<Face>; 3],
     ) -> Self {
-        let turned = (0..N).map(|k| field.window.turned_in(k, pose[k])).collect();
+        let turned = field.window.turned(&pose);
         Self { pose: turned, faces, offset: field.offset(&pose, &faces) }
     }
 

@@ -23,6 +23,13 @@ pub struct Margins {
     pub serial: f64,
 }
 
+impl Margins {
+    /// Whether they ask for anything.
+    pub fn are_any(&self) -> bool {
+        *self != Self::default()
+    }
+}
+
 /// What is asked of the configurations of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Demand {
@@ -120,10 +127,9 @@ fn unit_of_det<T: Scalar, const D: usize, const N: usize>(
     rows: &ModalRows<T, N>,
     mode: WorkingMode,
 ) -> T {
-    let turning = robot.platform == Platform::TurningBody;
-    let mut unit = T::constant(Interval::point(1.0));
+    let mut unit = T::constant(unit_of_moments(robot));
     for (j, at) in legs.iter().enumerate() {
-        let force = if turning {
+        let force = if robot.platform == Platform::TurningBody {
             let row = rows.row(j, mode.sign(j));
             dot(&row, &row).sqrt()
         } else {
@@ -131,9 +137,16 @@ fn unit_of_det<T: Scalar, const D: usize, const N: usize>(
         };
         unit = unit * force;
     }
+    unit
+}
+
+/// What det A of a robot whose rods bear unit forces is divided by for its moments: the characteristic length once for each angle, unless the
+/// platform only turns.
+pub fn unit_of_moments(robot: &Robot) -> Interval {
+    let turning = robot.platform == Platform::TurningBody;
     let angles = robot.platform.coordinates().iter().filter(|c| c.angle).count();
     let length = Interval::point(robot.characteristic_length());
-    (0..if turning { 0 } else { angles }).fold(unit, |unit, _| unit.scale(length))
+    (0..if turning { 0 } else { angles }).fold(Interval::point(1.0), |unit, _| unit * length)
 }
 
 #[cfg(test)]

@@ -4,8 +4,10 @@
 //! Two direct solutions in one aspect can be changed into each other without meeting a singularity; two whose det A differs in sign
 //! cannot, within a working mode.
 
-use super::plan::Plan;
+use super::between;
+use super::modes::Route;
 use super::plan::refusal::aspect_at;
+use super::plan::{Plan, PlanOptions, Planner};
 use crate::aspect::{Analysis, DetSign};
 use crate::domain::cusps::{Cusp, CuspError, Options, cusps};
 use crate::kinematics::{KinematicsError, Solution, WorkingMode};
@@ -13,6 +15,7 @@ use crate::num::without_turns;
 use crate::paving::Control;
 use crate::robot::Robot;
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// The direct solutions of a joint vector.
 #[derive(Clone, Debug, Serialize)]
@@ -25,7 +28,7 @@ pub struct AssemblyModes {
     pub solutions: Vec<AssemblyMode>,
     /// The modes among which aspects are numbered.
     pub numbered_among: Vec<WorkingMode>,
-    /// The aspects that hold more than one of them: between those a change without a singularity exists.
+    /// The aspects that hold more than one of them, by number: changes between those without a singularity exist.
     pub shared: Vec<SharedAspect>,
 }
 
@@ -50,6 +53,8 @@ pub struct SharedAspect {
     pub aspect: usize,
     /// [`AssemblyMode::number`]s.
     pub solutions: Vec<usize>,
+    /// Whether it is proved that they lie in one: the aspect is proved to be one ([`Analysis::is_one`]), or paths from each to the next are.
+    pub certified: bool,
 }
 
 /// The direct solutions of `q`, by aspect. Modes that were not analysed have none.
@@ -67,24 +72,40 @@ pub fn assembly_modes(analysis: &Analysis, q: &[f64]) -> Result<AssemblyModes, K
         AssemblyMode { number: k + 1, solution, aspect, rank }
     };
     let solutions: Vec<AssemblyMode> = found.solutions.into_iter().enumerate().map(mode).collect();
-    let mut shared: Vec<SharedAspect> = Vec::new();
-    for (aspect, number) in solutions.iter().filter_map(|s| Some((s.aspect?, s.number))) {
-        match shared.iter_mut().find(|s| s.aspect == aspect) {
-            Some(entry) => entry.solutions.push(number),
-            None => shared.push(SharedAspect { aspect, solutions: vec![number] }),
-        }
-    }
-    shared.retain(|s| s.solutions.len() > 1);
+    let shared = shared(analysis, &solutions);
     let numbered_among = analysis.modes.iter().map(|m| m.mode).collect();
     Ok(AssemblyModes { q: q.to_vec(), complete, solutions, numbered_among, shared })
+}
+
+/// The aspects with several solutions.
+fn shared(analysis: &Analysis, solutions: &[AssemblyMode]) -> Vec<SharedAspect> {
+    let mut by_aspect: BTreeMap<usize, Vec<&AssemblyMode>> = BTreeMap::new();
+    for solution in solutions {
+        if let Some(aspect) = solution.aspect {
+            by_aspect.entry(aspect).or_default().push(solution);
+        }
+    }
+    let mut planner = Planner::new(analysis);
+    let shortest = PlanOptions { weight: 0.0, ..PlanOptions::default() };
+    let mut are_joined =
+        |a: &Solution, b: &Solution| planner.plan(a.mode, &a.pose, &b.pose, &shortest).is_ok();
+    let several = by_aspect.into_iter().filter(|(_, members)| members.len() > 1);
+    let entry = several.map(|(aspect, members)| {
+        let mut pairs = members.windows(2);
+        let certified = analysis.is_one(aspect) || pairs.all(|p| are_joined(&p[0].solution, &p[1].solution));
+        SharedAspect { aspect, solutions: members.iter().map(|s| s.number).collect(), certified }
+    });
+    entry.collect()
 }
 
 /// A place of a motion where the number of direct solutions changes: elsewhere, two poses of the same joint vector meet at a parallel
 /// singularity and vanish, or appear. Numerical.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Fold {
-    /// How far along the path, in [0, 1] of its length.
-    pub at: f64,
+    /// The segment of the path, from 1,
+    pub segment: usize,
+    /// and t ∈ [0, 1] along it.
+    pub t: f64,
     /// The joint vector there.
     pub q: Vec<f64>,
     /// Direct solutions before and after.
@@ -104,59 +125,29 @@ pub struct CuspRound {
     pub turns: i32,
 }
 
-/// Samples of a motion.
-const SAMPLES: usize = 400;
-
-/// A motion, sampled: how far along, and the joint vector, without jumps.
-fn joint_path(robot: &Robot, plan: &Plan) -> Vec<(f64, Vec<f64>)> {
-    let segments = plan.waypoints.len().saturating_sub(1);
-    let mut path: Vec<(f64, Vec<f64>)> = Vec::new();
-    for i in 0..=SAMPLES {
-        let along = segments as f64 * i as f64 / SAMPLES as f64;
-        if let Some(mut q) = joints_at(robot, plan, along) {
-            if let Some((_, last)) = path.last() {
-                q.iter_mut()
-                    .zip(last)
-                    .zip(&robot.legs)
-                    .filter(|(_, leg)| leg.actuator.is_angle())
-                    .for_each(|((q, last), _)| *q = last + without_turns(*q - last));
-            }
-            path.push((along / segments.max(1) as f64, q));
-        }
-    }
-    path
-}
-
-/// The joint vector `along` segments from the start.
-fn joints_at(robot: &Robot, plan: &Plan, along: f64) -> Option<Vec<f64>> {
-    let k = (along as usize).min(plan.waypoints.len().checked_sub(2)?);
-    let (a, b, t) = (&plan.waypoints[k], &plan.waypoints[k + 1], along - k as f64);
-    let pose: Vec<f64> = a.iter().zip(b).map(|(a, b)| a + t * (b - a)).collect();
-    robot.inverse_in(&pose, plan.mode).ok().flatten()
-}
-
 /// Where the number of direct solutions changes along a motion.
 pub fn folds(robot: &Robot, plan: &Plan) -> Vec<Fold> {
-    let path = joint_path(robot, plan);
     let count = |q: &[f64]| robot.direct_poses(q).map(|poses| poses.len());
     let mut found = Vec::new();
-    for ends in path.windows(2) {
-        let (Ok(before), Ok(after)) = (count(&ends[0].1), count(&ends[1].1)) else { continue };
-        if before == after {
-            continue;
+    for (k, piece) in Route::from(plan.clone()).pieces(robot).iter().enumerate() {
+        let step = 1.0 / (piece.samples.len() - 1) as f64;
+        for (i, ends) in piece.samples.windows(2).enumerate() {
+            let (Ok(before), Ok(after)) = (count(&ends[0].q), count(&ends[1].q)) else { continue };
+            if before == after {
+                continue;
+            }
+            let at = |t: f64| between(&ends[0].q, &ends[1].q, t);
+            let (mut lo, mut hi) = (0.0, 1.0);
+            for _ in 0..40 {
+                let middle = 0.5 * (lo + hi);
+                if count(&at(middle)).is_ok_and(|n| n == before) { lo = middle } else { hi = middle }
+            }
+            // On the side where there are more, those that meet are there, hardly apart.
+            let q = at(if before > after { lo } else { hi });
+            let Some(meeting) = most_singular(robot, &q) else { continue };
+            let t = (i as f64 + lo) * step;
+            found.push(Fold { segment: k + 1, t, q, solutions: (before, after), meeting });
         }
-        let at =
-            |t: f64| -> Vec<f64> { ends[0].1.iter().zip(&ends[1].1).map(|(a, b)| a + t * (b - a)).collect() };
-        let (mut lo, mut hi) = (0.0, 1.0);
-        for _ in 0..40 {
-            let middle = 0.5 * (lo + hi);
-            if count(&at(middle)).is_ok_and(|n| n == before) { lo = middle } else { hi = middle }
-        }
-        // On the side where there are more, those that meet are there, hardly apart.
-        let q = at(if before > after { lo } else { hi });
-        let Some(meeting) = most_singular(robot, &q) else { continue };
-        let along = ends[0].0 + lo * (ends[1].0 - ends[0].0);
-        found.push(Fold { at: along, q, solutions: (before, after), meeting });
     }
     found
 }
@@ -174,9 +165,10 @@ fn most_singular(robot: &Robot, q: &[f64]) -> Option<Vec<f64>> {
 /// # Errors
 /// [`CuspError`].
 pub fn cusps_round(robot: &Robot, plan: &Plan, control: &Control<'_>) -> Result<Vec<CuspRound>, CuspError> {
-    let path = joint_path(robot, plan);
+    let pieces = Route::from(plan.clone()).pieces(robot);
+    let path: Vec<&[f64]> = pieces.iter().flat_map(|piece| &piece.samples).map(|at| &at.q[..]).collect();
     let range = |j: usize| {
-        let values = path.iter().map(|(_, q)| q[j]);
+        let values = path.iter().map(|q| q[j]);
         values.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), x| (lo.min(x), hi.max(x)))
     };
     let width = |j: &usize| range(*j).1 - range(*j).0;
@@ -188,7 +180,7 @@ pub fn cusps_round(robot: &Robot, plan: &Plan, control: &Control<'_>) -> Result<
     let others: Vec<usize> = (0..robot.dof()).filter(|&j| j != held).collect();
     let &[a, b] = &others[..] else { return Ok(Vec::new()) };
     let round = |cusp: Cusp| {
-        let turns = winding(path.iter().map(|(_, q)| [q[a] - cusp.q[a], q[b] - cusp.q[b]]));
+        let turns = winding(path.iter().map(|q| [q[a] - cusp.q[a], q[b] - cusp.q[b]]));
         (turns != 0).then_some(CuspRound { held: held + 1, cusp, turns })
     };
     Ok(cusps(robot, &options, control)?.cusps.into_iter().filter_map(round).collect())

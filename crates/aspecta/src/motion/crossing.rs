@@ -205,7 +205,7 @@ impl Side<'_> {
         let inside = self.insets(at).find(|x| self.aspects_of(x) == Some(aspects))?;
         // As far out again as it was in.
         let beyond: [f64; N] = std::array::from_fn(|k| 2.0 * at.pose[k] - inside[k]);
-        let in_window = |x: &[f64; N]| (0..N).all(|k| self.analysis.window.fraction(k, x[k]).is_some());
+        let window = &self.analysis.window;
         let crossing = Crossing {
             leg: self.leg + 1,
             modes: [self.mode(), self.mode().with_other_posture(self.leg)],
@@ -216,8 +216,8 @@ impl Side<'_> {
             beyond: beyond.to_vec(),
             clearance: at.clearance,
         };
-        (in_window(&inside) && in_window(&at.pose) && crossing.is_proved(self.robot(), Margins::default()))
-            .then_some(crossing)
+        let within = window.holds(&inside) && window.holds(&at.pose);
+        (within && crossing.is_proved(self.robot(), Margins::default())).then_some(crossing)
     }
 
     /// A crossing with more clearance next to a proved one, as far as small steps lead there.

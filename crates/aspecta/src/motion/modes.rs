@@ -4,10 +4,10 @@ use super::crossing::{Crossing, crossings};
 use super::plan::refusal::{aspect_at, sign_at, word};
 use super::plan::{End, Plan, PlanOptions, Planner, Refusal};
 use super::time::{Piece, Waypoint};
+use super::{between, go_on_from};
 use crate::aspect::{Analysis, DetSign};
 use crate::kinematics::WorkingMode;
 use crate::kinematics::demand::Margins;
-use crate::num::without_turns;
 use crate::robot::Robot;
 use serde::Serialize;
 use std::collections::VecDeque;
@@ -20,7 +20,7 @@ pub struct ModeGraph {
     /// The crossings found (each proved): at most one between two aspects and leg, that with the most clearance found.
     pub crossings: Vec<Crossing>,
     /// Which aspects can be reached from one another: sets of [`GraphAspect::id`], ascending. That the members of a set are joined is
-    /// proved. Aspects of different signs of det A are in different sets: proved too. That sets of one sign are not joined is not.
+    /// proved where each of them is proved to be one ([`ModeGraph::is_proved`]). Aspects of different signs of det A are in different sets: proved too. That sets of one sign are not joined is not.
     pub groups: Vec<Vec<usize>>,
 }
 
@@ -35,6 +35,8 @@ pub struct GraphAspect {
     pub det_a: DetSign,
     /// Certified inner measure.
     pub measure: f64,
+    /// Whether it is proved to be one: [`Analysis::is_one`].
+    pub is_one: bool,
 }
 
 /// A motion through several working modes without a parallel singularity.
@@ -55,6 +57,7 @@ impl ModeGraph {
                 mode: class.mode,
                 det_a: class.det_a,
                 measure: aspect.measure,
+                is_one: analysis.is_one(aspect.id),
             })
         });
         let mut graph =
@@ -69,13 +72,18 @@ impl ModeGraph {
         graph
     }
 
+    /// Whether it is proved that a group hangs together: its aspects are joined by proved crossings, and each of them is proved to be one.
+    pub fn is_proved(&self, group: &[usize]) -> bool {
+        self.aspects.iter().filter(|aspect| group.contains(&aspect.id)).all(|aspect| aspect.is_one)
+    }
+
     /// The crossings (by index) from an aspect to another: as few as possible, and of those ways the one whose least clearance is greatest.
     pub fn way(&self, from: usize, to: usize) -> Option<Vec<usize>> {
         self.way_over(from, to, |_| true)
     }
 
-    /// [`ModeGraph::way`] over some crossings only.
-    fn way_over(&self, from: usize, to: usize, is_open: impl Fn(&Crossing) -> bool) -> Option<Vec<usize>> {
+    /// [`ModeGraph::way`] over some crossings only, by index.
+    fn way_over(&self, from: usize, to: usize, is_open: impl Fn(usize) -> bool) -> Option<Vec<usize>> {
         // Per aspect: how many crossings away, the least clearance on the way, and the last crossing.
         let mut best: Vec<Option<(usize, f64, usize)>> =
             vec![None; self.aspects.iter().map(|a| a.id + 1).max()?];
@@ -84,7 +92,7 @@ impl ModeGraph {
         while let Some(here) = open.pop_front() {
             let Some((count, least, _)) = best[here] else { continue };
             for (k, crossing) in self.crossings.iter().enumerate() {
-                let Some(there) = crossing.other_side(here).filter(|_| is_open(crossing)) else { continue };
+                let Some(there) = crossing.other_side(here).filter(|_| is_open(k)) else { continue };
                 let least = least.min(crossing.clearance);
                 let better = best[there].is_none_or(|(n, c, _)| n > count + 1 || n == count + 1 && c < least);
                 if better {
@@ -137,14 +145,12 @@ pub enum NoRoute {
     )]
     OppositeSigns(DetSign),
     /// The aspect of an end is not known.
-    #[error(
-        "undecided: which aspect the {0} lies in is not known at this resolution; a finer --budget may tell"
-    )]
+    #[error("undecided: which aspect the {0} lies in is not known at this resolution; finer boxes may tell")]
     Unknown(End),
     /// No crossings lead there.
     #[error(
         "undecided: no way through changes of working mode was found from aspect {start} to aspect {goal}{}, and none is excluded",
-        if *.margins == Margins::default() { "" } else { " with these margins" }
+        if .margins.are_any() { " with these margins" } else { "" }
     )]
     NotFound {
         /// The [`crate::aspect::Aspect::id`] of the start.
@@ -156,7 +162,7 @@ pub enum NoRoute {
     },
     /// Legs would come nearer to their serial singularities than they may.
     #[error(
-        "the way leads through serial singularities, which a margin of |B_jj|/max forbids: ask for none (--avoid M,0)"
+        "the way leads through serial singularities, which a margin of |B_jj|/max forbids: ask for none of that kind"
     )]
     SerialMargin,
 }
@@ -195,10 +201,11 @@ impl Planner<'_> {
         let margins = options.margins;
         let open: Vec<bool> =
             graph.crossings.iter().map(|crossing| crossing.is_proved(robot, margins)).collect();
-        let is_open =
-            |crossing: &Crossing| graph.crossings.iter().zip(&open).any(|(c, open)| *open && c == crossing);
-        let way =
-            graph.way_over(from, to, is_open).ok_or(NoRoute::NotFound { start: from, goal: to, margins })?;
+        let way = graph.way_over(from, to, |k| open[k]).ok_or(NoRoute::NotFound {
+            start: from,
+            goal: to,
+            margins,
+        })?;
         if !way.is_empty() && margins.serial > 0.0 {
             return Err(NoRoute::SerialMargin);
         }
@@ -267,9 +274,7 @@ impl Route {
             for (pose, mode) in samples {
                 let Some(mut q) = robot.inverse_in(&pose, mode).ok().flatten() else { continue };
                 if let Some(last) = &last {
-                    let angles =
-                        q.iter_mut().zip(last).zip(&robot.legs).filter(|(_, leg)| leg.actuator.is_angle());
-                    angles.for_each(|((q, last), _)| *q = last + without_turns(*q - last));
+                    go_on_from(robot, last, &mut q);
                 }
                 last = Some(q.clone());
                 waypoints.push(Waypoint { pose, q, mode });
@@ -278,10 +283,6 @@ impl Route {
         };
         pieces.into_iter().map(&mut piece).filter(|piece| piece.samples.len() > 1).collect()
     }
-}
-
-fn between(a: &[f64], b: &[f64], t: f64) -> Vec<f64> {
-    a.iter().zip(b).map(|(a, b)| a + t * (b - a)).collect()
 }
 
 impl Crossing {

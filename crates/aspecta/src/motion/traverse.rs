@@ -4,9 +4,10 @@
 //! singularity. For a set of separate poses the same aspect lets the robot go from any of them to any other, on a path that may
 //! leave the set. With changes of working mode it is enough that each pose lies in some aspect of one group of [`ModeGraph::groups`].
 
+use super::between;
 use super::modes::ModeGraph;
 use super::plan::refusal::aspect_at;
-use super::plan::{in_window, is_in};
+use super::plan::{PlanOptions, Planner};
 use crate::aspect::{Analysis, DetSign};
 use crate::kinematics::demand::{Demand, demands};
 use crate::kinematics::modal::Constraint;
@@ -14,7 +15,7 @@ use crate::kinematics::path::{Along, Curve, along};
 use crate::kinematics::placement::Placement;
 use crate::kinematics::{KinematicsError, WorkingMode, for_platform};
 use crate::num::{Interval, Scalar, Slope};
-use crate::robot::Robot;
+use crate::robot::{Robot, Window};
 use serde::Serialize;
 use std::collections::VecDeque;
 
@@ -79,8 +80,17 @@ pub struct Traversability {
     /// Class by class.
     pub classes: Vec<ClassHolds>,
     /// For separate poses, with changes of working mode: the groups of linked aspects ([`ModeGraph::groups`]) of which every pose lies in at
-    /// least one. Certified as far as the groups are. Empty for boxes and paths.
-    pub groups: Vec<Vec<usize>>,
+    /// least one. Empty for boxes and paths.
+    pub groups: Vec<LinkedAspects>,
+}
+
+/// Aspects that can be reached from one another through changes of working mode.
+#[derive(Clone, Debug, Serialize)]
+pub struct LinkedAspects {
+    /// [`crate::aspect::Aspect::id`]s, ascending.
+    pub aspects: Vec<usize>,
+    /// Whether that is proved: [`ModeGraph::is_proved`].
+    pub certified: bool,
 }
 
 /// Which aspects hold a set, and, if there is a graph, which groups of aspects.
@@ -111,18 +121,31 @@ impl PoseSet {
     /// # Errors
     /// [`KinematicsError`] if a pose does not fit the robot.
     pub fn check(&self, robot: &Robot) -> Result<(), KinematicsError> {
-        self.corners().iter().try_for_each(|pose| robot.check_pose(pose))
+        self.parts().iter().flatten().try_for_each(|pose| robot.check_pose(pose))
     }
 
-    /// Poses that are numbers only if the set is.
-    fn corners(&self) -> Vec<Vec<f64>> {
+    /// Poses of which it is the hull, one list for each part that hangs together: the corners of a box, each pose by itself, each path.
+    fn parts(&self) -> Vec<Vec<Vec<f64>>> {
         match self {
             Self::Box(ranges) => {
-                vec![ranges.iter().map(|r| r.0).collect(), ranges.iter().map(|r| r.1).collect()]
+                vec![vec![ranges.iter().map(|r| r.0).collect(), ranges.iter().map(|r| r.1).collect()]]
             }
-            Self::Poses(poses) => poses.clone(),
-            Self::Paths(paths) => paths.concat(),
+            Self::Poses(poses) => poses.iter().map(|pose| vec![pose.clone()]).collect(),
+            Self::Paths(paths) => paths.clone(),
         }
+    }
+
+    /// A pose that lies outside the window: each part is turned as a whole, since its angles are real numbers that must not jump.
+    fn beyond(&self, window: &Window) -> Option<Vec<f64>> {
+        let of_part = |part: Vec<Vec<f64>>| {
+            let first = part.first()?;
+            let turns: Vec<f64> =
+                window.turned(first).iter().zip(first).map(|(turned, x)| turned - x).collect();
+            let turned =
+                |pose: &Vec<f64>| pose.iter().zip(&turns).map(|(x, turn)| x + turn).collect::<Vec<_>>();
+            part.iter().find(|pose| !window.holds(&turned(pose))).cloned()
+        };
+        self.parts().into_iter().find_map(of_part)
     }
 }
 
@@ -130,9 +153,8 @@ fn holds(analysis: &Analysis, class: usize, set: &PoseSet) -> Holds {
     let entry = &analysis.classes[class];
     let demand = Demand::class(entry.mode, entry.det_a.factor());
     let robot = &analysis.robot;
-    let is_free = |pose: &Vec<f64>| is_in(&analysis.window, &in_window(&analysis.window, pose));
     if robot.window.iter().any(Option::is_some)
-        && let Some(pose) = set.corners().into_iter().find(|pose| !is_free(pose))
+        && let Some(pose) = set.beyond(&analysis.window)
     {
         return Holds::NotWhole { pose, constraint: None };
     }
@@ -144,44 +166,52 @@ fn holds(analysis: &Analysis, class: usize, set: &PoseSet) -> Holds {
                 Holds::Whole { aspect: aspect_at(analysis, class, &centre) }
             })
         }
-        PoseSet::Poses(poses) => {
-            let paths: Vec<Vec<Vec<f64>>> = poses.iter().map(|pose| vec![pose.clone()]).collect();
-            over_paths(analysis, class, &demand, &paths)
-        }
-        PoseSet::Paths(paths) => over_paths(analysis, class, &demand, paths),
+        PoseSet::Poses(_) | PoseSet::Paths(_) => over_parts(analysis, class, &demand, &set.parts()),
     }
 }
 
-/// Every path proved to stay in the class, and all in one aspect.
-fn over_paths(analysis: &Analysis, class: usize, demand: &Demand, paths: &[Vec<Vec<f64>>]) -> Holds {
-    let mut common: Option<Option<usize>> = None;
-    for path in paths.iter().filter(|path| !path.is_empty()) {
-        // A path of one pose is a segment that stands still.
-        for k in 0..path.len().saturating_sub(1).max(1) {
-            let (start, end) = (&path[k], &path[(k + 1).min(path.len() - 1)]);
-            let middle = |from: f64, to: f64| -> Vec<f64> {
-                start.iter().zip(end).map(|(a, b)| a + 0.5 * (from + to) * (b - a)).collect()
-            };
-            match along(&analysis.robot, demand, &Curve::segment(start, end), SEGMENT_EFFORT) {
-                Along::Inside | Along::Crossed { .. } => {}
-                Along::Outside { constraint, from, to } => {
-                    return Holds::NotWhole { pose: middle(from, to), constraint: Some(constraint) };
-                }
-                Along::Undecided { from, to, .. } => return Holds::Undecided { pose: middle(from, to) },
-            }
+/// Every part proved to stay in the class, and all in one aspect.
+fn over_parts(analysis: &Analysis, class: usize, demand: &Demand, parts: &[Vec<Vec<f64>>]) -> Holds {
+    let mut planner = Planner::new(analysis);
+    let mut common: Option<(&[f64], Option<usize>)> = None;
+    for part in parts.iter().filter(|part| !part.is_empty()) {
+        if let Some(failed) = leaves_class(&analysis.robot, demand, part) {
+            return failed;
         }
-        let aspect = aspect_at(analysis, class, &path[0]);
-        match (common, aspect) {
-            (None, _) => common = Some(aspect),
-            (Some(Some(a)), Some(b)) if a != b => {
-                return Holds::NotWhole { pose: path[0].clone(), constraint: None };
+        let aspect = aspect_at(analysis, class, &part[0]);
+        let Some((first, known)) = common else {
+            common = Some((&part[0], aspect));
+            continue;
+        };
+        let pose = part[0].clone();
+        match known.zip(aspect) {
+            Some((a, b)) if a != b => return Holds::NotWhole { pose, constraint: None },
+            Some((a, _)) if analysis.is_one(a) => {}
+            // Where that is not proved of the aspect, a path may prove it of the poses.
+            _ => {
+                let shortest = PlanOptions { weight: 0.0, ..PlanOptions::default() };
+                if planner.plan(demand.mode, first, &pose, &shortest).is_err() {
+                    return Holds::Undecided { pose };
+                }
             }
-            (Some(Some(_)), Some(_)) => {}
-            // Not known to be one aspect.
-            _ => return Holds::Undecided { pose: path[0].clone() },
         }
     }
-    Holds::Whole { aspect: common.flatten() }
+    Holds::Whole { aspect: common.and_then(|(_, aspect)| aspect) }
+}
+
+/// Where a path leaves the class, or may. A path of one pose is a segment that stands still.
+fn leaves_class(robot: &Robot, demand: &Demand, path: &[Vec<f64>]) -> Option<Holds> {
+    (0..path.len().saturating_sub(1).max(1)).find_map(|k| {
+        let (start, end) = (&path[k], &path[(k + 1).min(path.len() - 1)]);
+        let middle = |from: f64, to: f64| between(start, end, 0.5 * (from + to));
+        match along(robot, demand, &Curve::segment(start, end), SEGMENT_EFFORT) {
+            Along::Inside | Along::Crossed { .. } => None,
+            Along::Outside { constraint, from, to } => {
+                Some(Holds::NotWhole { pose: middle(from, to), constraint: Some(constraint) })
+            }
+            Along::Undecided { from, to, .. } => Some(Holds::Undecided { pose: middle(from, to) }),
+        }
+    })
 }
 
 /// `None` if the box is proved to lie in the class: by bisection, all constraints > 0 on every part. A box is connected, so it lies in one
@@ -250,17 +280,17 @@ fn over_part<const D: usize, const N: usize>(robot: &Robot, demand: &Demand, par
 }
 
 /// The groups of which every pose lies in at least one aspect.
-fn linked(analysis: &Analysis, graph: &ModeGraph, poses: &[Vec<f64>]) -> Vec<Vec<usize>> {
+fn linked(analysis: &Analysis, graph: &ModeGraph, poses: &[Vec<f64>]) -> Vec<LinkedAspects> {
     let aspects_of = |pose: &Vec<f64>| -> Vec<usize> {
-        let of = |k: usize| {
-            let class = &analysis.classes[k];
-            let demand = Demand::class(class.mode, class.det_a.factor());
-            let inside = Along::is_inside(&analysis.robot, &demand, [pose, pose], 1);
-            inside.then(|| aspect_at(analysis, k, pose)).flatten()
+        let of = |k: usize| match holds(analysis, k, &PoseSet::Poses(vec![pose.clone()])) {
+            Holds::Whole { aspect } => aspect,
+            _ => None,
         };
         (0..analysis.classes.len()).filter_map(of).collect()
     };
     let all: Vec<Vec<usize>> = poses.iter().map(aspects_of).collect();
     let holds = |group: &&Vec<usize>| all.iter().all(|of| of.iter().any(|id| group.contains(id)));
-    graph.groups.iter().filter(holds).cloned().collect()
+    let linked =
+        |group: &Vec<usize>| LinkedAspects { aspects: group.clone(), certified: graph.is_proved(group) };
+    graph.groups.iter().filter(holds).map(linked).collect()
 }

@@ -111,6 +111,16 @@ impl Window {
         self.ranges.iter().enumerate().filter(|(_, r)| r.0 == r.1).map(|(k, r)| (k, r.0))
     }
 
+    /// Whether a pose lies in it. It is convex, but for coordinates that are glued, along which it has no ends.
+    pub fn holds(&self, pose: &[f64]) -> bool {
+        pose.iter().enumerate().all(|(k, &x)| self.fraction(k, x).is_some())
+    }
+
+    /// A pose with each angle turned into the window: [`Window::turned_in`].
+    pub fn turned(&self, pose: &[f64]) -> Vec<f64> {
+        pose.iter().enumerate().map(|(k, &x)| self.turned_in(k, x)).collect()
+    }
+
     /// `x`, or, if coordinate k is an angle that lies in the window but for full turns, the angle in the window. A
     /// held angle is met if x is a full turn away from it up to the rounding of either.
     pub fn turned_in(&self, k: usize, x: f64) -> f64 {

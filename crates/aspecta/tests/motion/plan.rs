@@ -3,6 +3,7 @@
 use super::*;
 use aspecta::kinematics::demand::Margins;
 use aspecta::motion::plan::{End, PlanOptions, Planner, Refusal};
+use aspecta::motion::{Joined, PathOptions, check_poses};
 use aspecta::robot::Platform;
 use random::Spread;
 
@@ -125,6 +126,33 @@ fn margins_are_kept_all_along() {
     assert!(planned > 3, "{planned}");
     let near = planner.plan(mode("+-"), &[0.5858, 9.9], &[0.59, 9.8], &options);
     assert_eq!(near, Err(Refusal::Margins(End::Start)));
+}
+
+/// Faults planted in a plan: a waypoint beyond the singularity, one out of reach, margins that were not proved.
+#[test]
+fn a_planted_fault_is_not_proved() {
+    let robot = robot("five-bar");
+    let analysis = analysed(&robot, 10, &["+-"]);
+    let plan = Planner::new(&analysis).plan(mode("+-"), &[4.0, 7.0], &[5.0, -7.0], &PlanOptions::default());
+    let plan = plan.unwrap();
+    assert!(plan.waypoints.len() > 3);
+    let proved = |waypoints: &[Vec<f64>], margins: Margins| {
+        let options = PathOptions { joined: Joined::Straight, margins };
+        check_poses(&robot, waypoints, plan.mode, &options).unwrap().is_sound()
+    };
+    assert!(proved(&plan.waypoints, Margins::default()));
+    // det A < 0 at (3, 2.5), and leg 1 does not reach (1, 1).
+    for fault in [vec![3.0, 2.5], vec![1.0, 1.0]] {
+        let mut waypoints = plan.waypoints.clone();
+        waypoints[2] = fault;
+        assert!(!proved(&waypoints, Margins::default()), "{waypoints:?}");
+    }
+    let mut shortened = plan.waypoints.clone();
+    shortened.drain(1..plan.waypoints.len() - 1);
+    assert!(!proved(&shortened, Margins::default()));
+    let least = least_det(&robot, &plan) / 160.0;
+    assert!(proved(&plan.waypoints, Margins { parallel: 0.99 * least, serial: 0.0 }));
+    assert!(!proved(&plan.waypoints, Margins { parallel: 1.01 * least, serial: 0.0 }));
 }
 
 #[test]

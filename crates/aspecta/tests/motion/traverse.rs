@@ -65,7 +65,7 @@ fn separate_poses_may_need_changes_of_mode() {
         let set = PoseSet::Poses(poses.iter().map(|p| p.to_vec()).collect());
         let found = traversability(&analysis, Some(&graph), set).unwrap();
         let held = found.classes.iter().filter(|c| matches!(c.holds, Holds::Whole { .. })).count();
-        (held, found.groups.len())
+        (held, found.groups.iter().filter(|group| group.certified).count())
     };
     // Table 2's two aspects of mode (−, +) with det A > 0, and a pose of each.
     let of = |id: usize| analysis.aspect(id).unwrap().1.sample.pose.clone();
@@ -100,4 +100,48 @@ fn a_path_is_held_where_its_check_is_free() {
             assert!(!sign_fits || check.singularity_free != Some(true), "{class:?}");
         }
     }
+}
+
+/// Of poses in an aspect that is not proved to be one a path has to prove that they can be joined.
+#[test]
+fn poses_in_an_aspect_that_may_be_several_are_joined_by_paths() {
+    let robot = robot("3-rpr");
+    let analysis = analysed(&robot, 6, &[]);
+    let solutions: Vec<_> = robot.direct(&[14.98, 15.38, 12.0]).unwrap();
+    for (k, class) in analysis.classes.iter().enumerate() {
+        let of_class = solutions.iter().filter(|s| s.det_a * f64::from(class.det_a.factor()) > 0.0);
+        let poses: Vec<Vec<f64>> = of_class.map(|s| s.pose.clone()).collect();
+        assert!(poses.len() == 3 && !analysis.is_one(class.aspects[0].id));
+        let found = traversability(&analysis, None, PoseSet::Poses(poses)).unwrap();
+        assert!(matches!(found.classes[k].holds, Holds::Whole { aspect: Some(_) }), "{:?}", found.classes[k]);
+        assert!(matches!(found.classes[1 - k].holds, Holds::NotWhole { .. }), "{:?}", found.classes[1 - k]);
+    }
+}
+
+/// A set leaves a window that is less than a full turn even if both its ends lie in it.
+#[test]
+fn a_set_that_leaves_the_window_is_not_held() {
+    let mut robot = robot("3-rpr");
+    let pose = robot.direct(&[14.98, 15.38, 12.0]).unwrap()[1].pose.clone();
+    robot.window[2] = Some((pose[2] - 0.2, pose[2] + 0.2));
+    let analysis = analysed(&robot, 5, &[]);
+    let at = |phi: f64| vec![pose[0], pose[1], pose[2] + phi];
+    let is_held = |set: PoseSet| {
+        let found = traversability(&analysis, None, set).unwrap();
+        found.classes.iter().any(|class| matches!(class.holds, Holds::Whole { .. }))
+    };
+    let is_out = |set: PoseSet| {
+        let found = traversability(&analysis, None, set).unwrap();
+        found.classes.iter().all(|class| matches!(class.holds, Holds::NotWhole { constraint: None, .. }))
+    };
+    let range = |phi: [f64; 2]| {
+        let around = |x: f64| (x - 0.01, x + 0.01);
+        PoseSet::Box(vec![around(pose[0]), around(pose[1]), (pose[2] + phi[0], pose[2] + phi[1])])
+    };
+    assert!(is_held(PoseSet::Paths(vec![vec![at(-0.05), at(0.05)]])));
+    assert!(is_held(PoseSet::Poses(vec![at(-0.05), at(0.05 + TAU)])));
+    assert!(is_held(range([TAU - 0.01, TAU + 0.01])));
+    assert!(is_out(PoseSet::Paths(vec![vec![at(-0.05), at(0.05 + TAU)]])));
+    assert!(is_out(range([-0.05, 0.05 + TAU])));
+    assert!(is_out(PoseSet::Poses(vec![at(-0.05), at(0.3)])));
 }

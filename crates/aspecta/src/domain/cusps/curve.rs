@@ -297,7 +297,7 @@ impl<'a, const D: usize> Tracker<'a, D> {
 
     fn point(&self, at: &Vector3<f64>) -> Option<CurvePoint> {
         let y = at.component_mul(&self.unit);
-        let pose: Vec<f64> = (0..3).map(|k| self.window.turned_in(k, y[k])).collect();
+        let pose = self.window.turned(y.as_slice());
         let solutions = self.system.robot.inverse(&pose).ok()?;
         let solution = solutions.into_iter().find(|s| s.mode == self.system.mode)?;
         Some(CurvePoint { pose, q: solution.q, within_limits: solution.within_limits })

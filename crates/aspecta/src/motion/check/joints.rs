@@ -148,7 +148,8 @@ impl<'a> Walk<'a> {
             return Err(PathError::StartSingular);
         }
         let limited = is_limited(follower.robot());
-        let asked = [(Asked::Regular, true), (Asked::Margin, options.keeps_away()), (Asked::Limit, limited)];
+        let asked =
+            [(Asked::Regular, true), (Asked::Margin, options.margins.are_any()), (Asked::Limit, limited)];
         let verdicts = Default::default();
         let (stretches, points) = (Vec::new(), Vec::new());
         Ok(Self { follower, curves, options, sign, signs, verdicts, asked, stretches, points })

@@ -19,6 +19,7 @@ use crate::kinematics::WorkingMode;
 use crate::kinematics::demand::{Demand, Margins};
 use crate::kinematics::modal::Constraint;
 use crate::kinematics::path::{Along, Curve, along};
+use crate::motion::units;
 use crate::robot::Robot;
 use clearance::{PoseStretch, clearance};
 use serde::Serialize;
@@ -142,11 +143,6 @@ impl Obstacle {
 }
 
 impl PathOptions {
-    /// Whether margins are asked for.
-    fn keeps_away(&self) -> bool {
-        self.margins != Margins::default()
-    }
-
     fn check(&self) -> Result<(), PathError> {
         let Margins { parallel, serial } = self.margins;
         if !(0.0..f64::INFINITY).contains(&parallel) {
@@ -185,14 +181,14 @@ pub fn check_poses(
     let unlimited = without_limits(robot);
     let sign = sign_at(&unlimited, mode, &poses[0]).ok_or(PathError::StartSingular)?;
     let PathOptions { joined, margins } = *options;
-    let curves = join::join(poses, &units(robot), joined);
+    let curves = join::join(poses, &units(robot)[..robot.dof()], joined);
     let class = Demand::class(mode, sign);
     let effort = if joined == Joined::None { 1 } else { EFFORT };
     let found = |robot: &Robot, margins: Margins, asked: Asked| {
         first_obstacle(robot, &Demand { margins, ..class }, &curves, effort, asked)
     };
     let singular = found(&unlimited, Margins::default(), Asked::Regular);
-    let near = options.keeps_away().then(|| found(&unlimited, margins, Asked::Margin)).flatten();
+    let near = margins.are_any().then(|| found(&unlimited, margins, Asked::Margin)).flatten();
     let limit = is_limited(robot).then(|| found(robot, Margins::default(), Asked::Limit)).flatten();
 
     let walked = singular.as_ref().map_or(curves.len(), |o| o.segment);
@@ -273,10 +269,4 @@ fn without_limits(robot: &Robot) -> Robot {
     let mut unlimited = robot.clone();
     unlimited.legs.iter_mut().for_each(|leg| leg.limits.clear());
     unlimited
-}
-
-/// What makes pose coordinates numbers of order one.
-fn units(robot: &Robot) -> Vec<f64> {
-    let length = robot.characteristic_length();
-    robot.platform.coordinates().iter().map(|c| if c.angle { 1.0 } else { length }).collect()
 }

@@ -2,7 +2,7 @@
 
 use crate::kinematics::WorkingMode;
 use crate::kinematics::path::Curve;
-use crate::num::without_turns;
+use crate::motion::go_on_from;
 use crate::robot::Robot;
 use serde::Serialize;
 
@@ -76,14 +76,7 @@ fn continued(
     depth: usize,
 ) -> Option<Vec<f64>> {
     let mut next = joints(to)?;
-    let mut furthest: f64 = 0.0;
-    for ((next, q), leg) in next.iter_mut().zip(q).zip(&robot.legs) {
-        if leg.actuator.is_angle() {
-            let turn = without_turns(*next - q);
-            *next = q + turn;
-            furthest = furthest.max(turn.abs());
-        }
-    }
+    let furthest = go_on_from(robot, q, &mut next);
     if furthest < TURN || depth == 0 {
         return Some(next);
     }

@@ -4,6 +4,7 @@ use super::refusal::{BadInput, Refusal, StartError};
 use super::tube::{Located, Model, plain};
 use super::{Padded, between, check_numbers, in_stretches, unpadded};
 use crate::kinematics::{KinematicsError, WorkingMode, direct, for_platform};
+use crate::motion::units;
 use crate::num::padded;
 use crate::robot::{Actuator, Robot};
 use nalgebra::SMatrix;
@@ -70,10 +71,7 @@ impl Follower {
         if let Some(j) = short_strut(robot, q) {
             return Err(KinematicsError::StrutLength { leg: j + 1, value: q[j] }.into());
         }
-        let length = robot.characteristic_length();
-        let mut unit = [1.0; 6];
-        let coordinates = robot.platform.coordinates().iter();
-        unit.iter_mut().zip(coordinates).filter(|(_, c)| !c.angle).for_each(|(unit, _)| *unit = length);
+        let unit = units(robot);
         let state =
             for_platform!(robot.platform, start(robot, &unit, pose, q)).ok_or(StartError::NoSolution)?;
         Ok(Self { robot: robot.clone(), unit, state })

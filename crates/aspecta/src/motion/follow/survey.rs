@@ -4,12 +4,13 @@ use super::direct::{Follower, check_joints};
 use super::on_the_way::OnTheWay;
 use super::tube::{Model, Stretch};
 use super::{Refusal, unpadded};
+use crate::kinematics::demand::unit_of_moments;
 use crate::kinematics::leg::eliminate;
 use crate::kinematics::limits::{LegAt, margin};
 use crate::kinematics::placement::{determinant, wrench};
 use crate::kinematics::{WorkingMode, for_platform};
 use crate::num::{Ball, Interval, Scalar, Slope, dot, padded};
-use crate::robot::{Actuator, Platform, Robot};
+use crate::robot::Actuator;
 
 /// Enclosures of what the robot meets on one certified stretch of joint vectors: they hold the values at every configuration of the solution
 /// curve. Whatever `det_a` may hold, det A does not vanish: that is what the stretch is certified for.
@@ -96,14 +97,6 @@ impl<const D: usize, const N: usize> Model<'_, D, N> {
         let mode = WorkingMode::from_signs([]);
         Survey { det_a: range(det), parallel: range(det / unit), serial, limits, mode }
     }
-}
-
-/// What det A of a robot whose rods bear unit forces is divided by for its moments.
-fn unit_of_moments(robot: &Robot) -> Interval {
-    let turning = robot.platform == Platform::TurningBody;
-    let angles = robot.platform.coordinates().iter().filter(|c| c.angle).count();
-    let length = Interval::point(robot.characteristic_length());
-    (0..if turning { 0 } else { angles }).fold(Interval::point(1.0), |unit, _| unit * length)
 }
 
 fn norm<const K: usize>(v: &[Over; K]) -> Over {

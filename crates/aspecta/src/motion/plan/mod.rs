@@ -20,7 +20,6 @@ use crate::kinematics::WorkingMode;
 use crate::kinematics::demand::{Demand, Margins};
 use crate::kinematics::path::Along;
 use crate::num::padded;
-use crate::robot::Window;
 use cost::Cost;
 use roadmap::Roadmap;
 use serde::Serialize;
@@ -87,10 +86,6 @@ impl Proof<'_> {
         self.analysis.robot.dof()
     }
 
-    fn is_free_of_margins(&self) -> bool {
-        self.demand.margins == Margins::default()
-    }
-
     /// Whether the segment between two poses meets the demand, within the window.
     fn holds(&self, a: &Pose, b: &Pose) -> bool {
         self.holds_within(a, b, TRIAL)
@@ -98,16 +93,11 @@ impl Proof<'_> {
 
     fn holds_within(&self, a: &Pose, b: &Pose, effort: usize) -> bool {
         let n = self.axes();
-        let in_window = |x: &Pose| is_in(&self.analysis.window, &x[..n]);
-        in_window(a)
-            && in_window(b)
+        let window = &self.analysis.window;
+        window.holds(&a[..n])
+            && window.holds(&b[..n])
             && Along::is_inside(&self.analysis.robot, self.demand, [&a[..n], &b[..n]], effort)
     }
-}
-
-/// Whether a pose lies in the window. The window is convex, but for coordinates that are glued, along which it has no ends.
-pub(super) fn is_in(window: &Window, pose: &[f64]) -> bool {
-    pose.iter().enumerate().all(|(k, &x)| window.fraction(k, x).is_some())
 }
 
 impl<'a> Planner<'a> {
@@ -138,7 +128,7 @@ impl<'a> Planner<'a> {
         let demand = Demand { margins: options.margins, ..Demand::class(mode, det_a.factor()) };
         let cost = Cost::new(&analysis.robot, &analysis.window, &demand, options.weight);
         let proof = Proof { analysis, demand: &demand };
-        let ends = [start, goal].map(|pose| -> Pose { padded(&in_window(&analysis.window, pose)) });
+        let ends = [start, goal].map(|pose| -> Pose { padded(&analysis.window.turned(pose)) });
         let path = self.sound_path(class, &cost, &proof, ends)?;
         let path = shorten::improve(&proof, &cost, path);
         if let Some(k) = path.windows(2).position(|ends| !proof.holds_within(&ends[0], &ends[1], FINAL)) {
@@ -206,11 +196,6 @@ fn coarsest(dof: usize) -> u32 {
     if dof == 2 { 8 } else { 5 }
 }
 
-/// The pose with its angles turned into the window.
-pub(super) fn in_window(window: &Window, pose: &[f64]) -> Vec<f64> {
-    pose.iter().enumerate().map(|(k, &x)| window.turned_in(k, x)).collect()
-}
-
 impl Roadmap {
     /// A proved path over its boxes: from the start up to a box, from box to box, down to the goal.
     fn path(&self, proof: &Proof<'_>, cost: &Cost<'_>, ends: [Pose; 2]) -> Option<Vec<Pose>> {
@@ -245,7 +230,7 @@ impl Roadmap {
             for x in bridge {
                 path.push(cost.beside(&path[path.len() - 1], &x));
             }
-            return proof.is_free_of_margins()
+            return !proof.demand.margins.are_any()
                 || path[begin..].windows(2).all(|ends| proof.holds(&ends[0], &ends[1]));
         }
         let (centre, next) = {
@@ -255,8 +240,7 @@ impl Roadmap {
         let door = here.meeting(there, &centre, &next);
         path.extend([centre, door, next]);
         // Both halves lie in boxes that are proved to lie in the class; nothing is known of the margins yet.
-        proof.demand.margins == Margins::default()
-            || (proof.holds(&centre, &door) && proof.holds(&door, &next))
+        !proof.demand.margins.are_any() || (proof.holds(&centre, &door) && proof.holds(&door, &next))
     }
 
     /// Ways from a pose to boxes, by proved segments: the box it lies in, and those that a climb comes to.
@@ -275,7 +259,7 @@ impl Roadmap {
         proof.analysis.climb(self.class, &end[..n], &mut |pose| {
             let next = padded(pose);
             // The climb itself is proved to stay in the class, whatever its margins.
-            if !proof.is_free_of_margins() && !proof.holds(&path[path.len() - 1], &next) {
+            if proof.demand.margins.are_any() && !proof.holds(&path[path.len() - 1], &next) {
                 return true;
             }
             path.push(next);

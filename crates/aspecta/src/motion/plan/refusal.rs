@@ -74,7 +74,7 @@ pub enum Refusal {
     /// The two poses lie in two aspects of one class (certified).
     #[error(
         "no such path exists, proved: the start and the goal lie in two aspects of mode {mode}, both with det A {}; changes of working mode \
-         may lead from one to the other (--through-modes)", word(*.det_a)
+         may lead from one to the other", word(*.det_a)
     )]
     DifferentAspects {
         /// The mode.
@@ -88,8 +88,8 @@ pub enum Refusal {
     },
     /// Neither a path nor a proof that there is none.
     #[error(
-        "undecided: no path was found over boxes down to depth {depth}{}, and none is excluded; a finer --budget may tell",
-        if *.margins == Margins::default() { "" } else { " with these margins" }
+        "undecided: no path was found over boxes down to depth {depth}{}, and none is excluded; finer boxes may tell",
+        if .margins.are_any() { " with these margins" } else { "" }
     )]
     NotFound {
         /// The finest boxes looked at.
@@ -159,9 +159,7 @@ pub(in crate::motion) fn sign_at(
     if !analysis.classes.iter().any(|class| class.mode == mode) {
         return Err(Refusal::Mode(mode));
     }
-    if !super::is_in(&analysis.window, &super::in_window(&analysis.window, pose))
-        && robot.window.iter().any(Option::is_some)
-    {
+    if !analysis.window.holds(&analysis.window.turned(pose)) && robot.window.iter().any(Option::is_some) {
         return Err(Refusal::Window(end));
     }
     let at =
