@@ -1,10 +1,10 @@
 //! `aspecta assembly`: the poses of a joint vector by aspects, and how to change from one to another.
 
-use super::planning::{self, Analysing, Moving, Planned, Wishes};
+use super::planning::{self, Planned, Planning};
 use super::queries::{Labels, det_a_unit};
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
-use crate::output::{Align, FORMAT_VERSION, Format, ShownArgs, Table, exact, json, note, number};
+use crate::output::{Align, FORMAT_VERSION, Format, Table, exact, json, note, number};
 use aspecta::kinematics::WorkingMode;
 use aspecta::motion::assembly::{AssemblyModes, CuspRound, Fold, assembly_modes, cusps_round, folds};
 use aspecta::motion::modes::{Configuration, ModeGraph, NoRoute, Route};
@@ -33,13 +33,7 @@ pub struct Assembly {
     #[arg(long, requires = "to")]
     explain: bool,
     #[command(flatten)]
-    wishes: Wishes,
-    #[command(flatten)]
-    moving: Moving,
-    #[command(flatten)]
-    analysing: Analysing,
-    #[command(flatten)]
-    shown: ShownArgs,
+    planning: Planning,
 }
 
 const EXAMPLES: &str = "\
@@ -67,9 +61,8 @@ struct Found {
 impl Assembly {
     pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
         let robot = input::robot(&self.robot)?;
-        let options = self.wishes.options()?;
-        let q = input::list("--q", &self.q, &Columns::joints(&robot), self.shown.deg)?;
-        self.moving.prepare()?;
+        let options = self.planning.options()?;
+        let q = input::list("--q", &self.q, &Columns::joints(&robot), self.planning.shown.deg)?;
         let solutions = robot.direct(&q)?;
         let chosen = self.from.zip(self.to).map(|(i, j)| [usize::from(i), usize::from(j)]);
         if let Some(wrong) = chosen.into_iter().flatten().find(|&k| k > solutions.len()) {
@@ -91,7 +84,7 @@ impl Assembly {
         if through {
             modes.clear();
         }
-        let found = self.analysing.with(&robot, &modes, |analysis, control| {
+        let found = self.planning.analysing.with(&robot, &modes, |analysis, control| {
             let modes = assembly_modes(analysis, &q)?;
             let Some([from, to]) = chosen else { return Ok(Found { modes, change: None, explained: None }) };
             let [start, goal] = [from, to].map(|k| {
@@ -105,7 +98,7 @@ impl Assembly {
                 let plan = planner.plan(start.mode, start.pose, goal.pose, &options);
                 plan.map(Route::from).map_err(NoRoute::from)
             };
-            let change = self.moving.film(analysis, change);
+            let change = self.planning.moving.film(analysis, change);
             let explicable = change.result.as_ref().ok().filter(|_| self.explain && !through);
             let plan = explicable.map(|route| &route.stretches[0]);
             let explain = |plan: &Plan| {
@@ -120,20 +113,20 @@ impl Assembly {
 
     fn print(&self, out: &mut dyn Write, robot: &Robot, found: &Found) -> Result<Answer, Failure> {
         let Some(change) = &found.change else {
-            match self.shown.format() {
+            match self.planning.shown.format() {
                 Format::Json => {
                     let (format_version, robot) = (FORMAT_VERSION, robot.name.as_str());
                     json(out, &Document { format_version, robot, found: &found.modes })?;
                 }
                 Format::Csv => print_csv(out, robot, &found.modes)?,
-                Format::Table => print_list(out, robot, &found.modes, self.shown.deg)?,
+                Format::Table => print_list(out, robot, &found.modes, self.planning.shown.deg)?,
             }
             return Ok(Answer::from(found.modes.complete && !found.modes.solutions.is_empty()));
         };
-        let answer = planning::print(out, robot, change, &self.moving, self.shown)?;
-        if let (Format::Table, Some((folds, cusps))) = (self.shown.format(), &found.explained) {
-            explain(out, robot, folds, cusps, self.shown.deg)?;
-        } else if self.explain && self.shown.format() != Format::Table {
+        let answer = planning::print(out, robot, change, &self.planning)?;
+        if let (Format::Table, Some((folds, cusps))) = (self.planning.shown.format(), &found.explained) {
+            explain(out, robot, folds, cusps, self.planning.shown.deg)?;
+        } else if self.explain && self.planning.shown.format() != Format::Table {
             note("--explain is for people: it is left out of JSON and CSV");
         }
         Ok(answer)

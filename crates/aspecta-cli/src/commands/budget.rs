@@ -1,6 +1,12 @@
 //! `--budget`: how far an analysis goes.
 
 use aspecta::paving::{Budget, MAX_DEPTH};
+use aspecta::robot::Robot;
+
+/// What is fine enough to work with the aspects of a robot, if no budget is given.
+pub fn coarse(robot: &Robot) -> Budget {
+    Budget { depth: Some(if robot.dof() == 2 { 11 } else { 7 }), ..Budget::default() }
+}
 
 /// Reads a comma-separated budget: `30s`, `5min`, `1h`, `2e6boxes`, `depth=9`, `res=0.1`.
 ///

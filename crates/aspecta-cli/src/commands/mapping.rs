@@ -98,8 +98,8 @@ impl Making {
         wanted: impl Fn(&Analysis) -> Result<Vec<usize>, Failure>,
     ) -> Result<(Map, Option<Stop>), Failure> {
         let in_plane = robot.dof() == 2;
-        let coarse = Budget { depth: Some(if in_plane { 11 } else { 7 }), ..Budget::default() };
-        let options = Options { budget: self.budget.unwrap_or(coarse), ..Options::default() };
+        let budget = self.budget.unwrap_or_else(|| budget::coarse(robot));
+        let options = Options { budget, ..Options::default() };
         let usual = DomainOptions::default();
         let cells = self.cells.map_or(if in_plane { 5 * usual.cells } else { usual.cells }, usize::from);
         can_be_cut(robot)?;

@@ -1,9 +1,8 @@
 //! `aspecta plan`: from one pose to another without a singularity, or the proof that there is no such way.
 
-use super::planning::{self, Analysing, Moving, Wishes};
+use super::planning::{self, Planning};
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
-use crate::output::ShownArgs;
 use aspecta::kinematics::WorkingMode;
 use aspecta::motion::modes::{Configuration, ModeGraph, NoRoute, Route};
 use aspecta::motion::plan::Planner;
@@ -33,13 +32,7 @@ pub struct Plan {
     #[arg(long)]
     through_modes: bool,
     #[command(flatten)]
-    wishes: Wishes,
-    #[command(flatten)]
-    moving: Moving,
-    #[command(flatten)]
-    analysing: Analysing,
-    #[command(flatten)]
-    shown: ShownArgs,
+    planning: Planning,
 }
 
 const EXAMPLES: &str = "\
@@ -53,18 +46,17 @@ Exit status: 0 planned; 1 no such path (it says whether that is proved); 2 bad i
 impl Plan {
     pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
         let robot = input::robot(&self.robot)?;
-        let options = self.wishes.options()?;
+        let options = self.planning.options()?;
         let columns = Columns::pose(&robot);
-        let from = input::list("--from", &self.from, &columns, self.shown.deg)?;
-        let to = input::list("--to", &self.to, &columns, self.shown.deg)?;
+        let from = input::list("--from", &self.from, &columns, self.planning.shown.deg)?;
+        let to = input::list("--to", &self.to, &columns, self.planning.shown.deg)?;
         // What does not fit the robot is told before the aspects are looked for.
         PoseSet::Poses(vec![from.clone(), to.clone()]).check(&robot)?;
         let mode = input::mode(&robot, &self.mode)?;
         let to_mode = self.to_mode.as_deref().map_or(Ok(mode), |text| input::mode(&robot, text))?;
         let through = self.through_modes || mode != to_mode;
         let modes: &[WorkingMode] = if through { &[] } else { &[mode] };
-        self.moving.prepare()?;
-        let planned = self.analysing.with(&robot, modes, |analysis, _| {
+        let planned = self.planning.analysing.with(&robot, modes, |analysis, _| {
             let mut planner = Planner::new(analysis);
             let result = if through {
                 let graph = ModeGraph::new(analysis);
@@ -75,8 +67,8 @@ impl Plan {
                 let plan = planner.plan(mode, &from, &to, &options);
                 plan.map(Route::from).map_err(NoRoute::from)
             };
-            Ok(self.moving.film(analysis, result))
+            Ok(self.planning.moving.film(analysis, result))
         })?;
-        planning::print(out, &robot, &planned, &self.moving, self.shown)
+        planning::print(out, &robot, &planned, &self.planning)
     }
 }

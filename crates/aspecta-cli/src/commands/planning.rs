@@ -43,11 +43,10 @@ impl Analysing {
         modes: &[WorkingMode],
         work: impl FnOnce(&Analysis, &aspecta::paving::Control<'_>) -> Result<T, Failure>,
     ) -> Result<T, Failure> {
-        let coarse = Budget { depth: Some(if robot.dof() == 2 { 11 } else { 7 }), ..Budget::default() };
+        let budget = self.budget.unwrap_or_else(|| budget::coarse(robot));
         // In the plane all modes cost nothing to speak of, and aspects then have the numbers of `analyze`.
         let modes = if robot.dof() == 2 { &[] } else { modes };
-        let options =
-            Options { budget: self.budget.unwrap_or(coarse), modes: modes.to_vec(), ..Options::default() };
+        let options = Options { budget, modes: modes.to_vec(), ..Options::default() };
         watched(self.threads, |control| {
             let analysis = analyze(robot, &options, control)?;
             if analysis.run.stop == Stop::Cancelled {
@@ -60,7 +59,7 @@ impl Analysing {
 
 /// What kind of path is wanted.
 #[derive(Args)]
-pub struct Wishes {
+struct Wishes {
     /// How much nearness to singularities counts: a unit of length costs c^-W, c being the smaller of the normalised |det A| and the
     /// |B_jj|/max. 0: the shortest path; 8: as good as only the least clearance
     #[arg(long, value_name = "W", default_value_t = 1.0, allow_negative_numbers = true)]
@@ -69,9 +68,19 @@ pub struct Wishes {
     away: Away,
 }
 
+impl Planning {
+    /// What kind of path is wanted; that the directory of `--out` can be written to is seen to before the work begins.
+    pub fn options(&self) -> Result<PlanOptions, Failure> {
+        if let Some(directory) = &self.moving.out {
+            file::writable(directory).map_err(Failure::in_directory(directory))?;
+        }
+        self.wishes.options()
+    }
+}
+
 impl Wishes {
     /// As the library takes them.
-    pub fn options(&self) -> Result<PlanOptions, Failure> {
+    fn options(&self) -> Result<PlanOptions, Failure> {
         if !(self.weight >= 0.0 && self.weight <= 64.0) {
             return Err(Failure::Input(format!("--weight {}: give a number from 0 to 64", self.weight)));
         }
@@ -119,6 +128,19 @@ pub struct Moving {
     out: Option<PathBuf>,
 }
 
+/// What every command that plans is told.
+#[derive(Args)]
+pub struct Planning {
+    #[command(flatten)]
+    wishes: Wishes,
+    #[command(flatten)]
+    pub moving: Moving,
+    #[command(flatten)]
+    pub analysing: Analysing,
+    #[command(flatten)]
+    pub shown: ShownArgs,
+}
+
 /// What came of planning.
 pub struct Planned {
     /// The route, or why there is none.
@@ -128,11 +150,6 @@ pub struct Planned {
 }
 
 impl Moving {
-    /// The directory of `--out` must be one that can be written to before the work begins.
-    pub fn prepare(&self) -> Result<(), Failure> {
-        self.out.as_deref().map_or(Ok(()), |dir| file::writable(dir).map_err(Failure::in_directory(dir)))
-    }
-
     /// The result with the page that plays it, if that is wanted.
     pub fn film(&self, analysis: &Analysis, result: Result<Route, NoRoute>) -> Planned {
         let route = result.as_ref().ok().filter(|_| self.out.is_some());
@@ -188,8 +205,7 @@ pub fn print(
     out: &mut dyn Write,
     robot: &Robot,
     planned: &Planned,
-    moving: &Moving,
-    shown: ShownArgs,
+    Planning { moving, shown, .. }: &Planning,
 ) -> Result<Answer, Failure> {
     let (format, name) = (shown.format(), &robot.name);
     let mut document = Document {

@@ -1,19 +1,8 @@
 //! `aspecta check-path`: Table 4 and its opposite.
 
-use crate::{aspecta, numbers, stdout};
+use crate::{TABLE_4, aspecta, file, numbers, stdout};
 use serde_json::Value;
 use std::fs;
-use std::path::PathBuf;
-use tempfile::TempDir;
-
-const TABLE_4: &str = "x,y,phi\n-15.468,0.781,0.073\n-15.468,-7.091,0.500\n-9.902,-7.091,1.081\n";
-
-fn file(content: &str) -> (TempDir, PathBuf) {
-    let directory = tempfile::tempdir().unwrap();
-    let path = directory.path().join("path.csv");
-    fs::write(&path, content).unwrap();
-    (directory, path)
-}
 
 fn check(robot: &str, content: &str, mode: &str) -> (Value, Option<i32>) {
     let (_directory, path) = file(content);

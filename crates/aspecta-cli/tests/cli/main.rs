@@ -18,7 +18,10 @@ mod verify;
 
 use assert_cmd::Command;
 use serde_json::Value;
+use std::fs;
+use std::path::PathBuf;
 use std::process::Output;
+use tempfile::TempDir;
 
 /// `aspecta` with these arguments, separated by blanks.
 pub fn aspecta(arguments: &str) -> Command {
@@ -50,4 +53,15 @@ pub fn json(arguments: &str) -> Value {
 pub fn numbers(value: &Value) -> Vec<f64> {
     let array = value.as_array().unwrap_or_else(|| panic!("not an array: {value}"));
     array.iter().map(|x| x.as_f64().unwrap_or_else(|| panic!("not a number: {x}"))).collect()
+}
+
+/// The waypoints of the paper's Table 4.
+pub const TABLE_4: &str = "x,y,phi\n-15.468,0.781,0.073\n-15.468,-7.091,0.500\n-9.902,-7.091,1.081\n";
+
+/// A file `path.csv`, and the directory that it goes with.
+pub fn file(content: &str) -> (TempDir, PathBuf) {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("path.csv");
+    fs::write(&path, content).unwrap();
+    (directory, path)
 }
