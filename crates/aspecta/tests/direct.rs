@@ -468,9 +468,6 @@ fn input_that_cannot_be_solved_is_a_typed_error() {
     assert_eq!(robot.direct(&[0.0, 2.0, 3.0]), Err(KinematicsError::StrutLength { leg: 1, value: 0.0 }));
     assert!(matches!(robot.direct(&[1.0, 2.0]), Err(KinematicsError::Length { wanted: 3, found: 2, .. })));
     assert!(matches!(robot.direct(&[1.0, 2.0, f64::NAN]), Err(KinematicsError::NotFinite { index: 3, .. })));
-    let body = Platform::FreeBody;
-    let hexapod = Robot::new("hexapod", body, vec![robot.legs[0].clone(); 6]).unwrap();
-    assert_eq!(hexapod.direct(&[1.0; 6]), Err(KinematicsError::NoDirectModel(body)));
     // Absurd sizes overflow: undecided, and said so, never a panic.
     assert!(
         robot.direct(&[1e300, 1e300, 1e300]).is_ok_and(|s| s.is_empty())

@@ -104,9 +104,7 @@ impl PathArgs {
 
 fn with_advice(error: PathError) -> Failure {
     match error {
-        PathError::WhichSolution { .. } | PathError::NoDirectModel(_) => {
-            Failure::Input(format!("{error}\ngive it with --start"))
-        }
+        PathError::WhichSolution { .. } => Failure::Input(format!("{error}\ngive it with --start")),
         PathError::Unjoined => Failure::Input(format!("--joined none: {error}")),
         _ => error.into(),
     }

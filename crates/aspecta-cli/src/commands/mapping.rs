@@ -6,7 +6,7 @@ use crate::input;
 use aspecta::aspect::{Analysis, DetSign, Options, analyze};
 use aspecta::domain::boundary::Boundary;
 use aspecta::domain::characteristic::Characteristic;
-use aspecta::domain::{DomainError, DomainOptions, Map, MappedAspect, Surfaces, can_be_cut, domains};
+use aspecta::domain::{DomainError, DomainOptions, Map, MappedAspect, Surfaces, domains};
 use aspecta::kinematics::WorkingMode;
 use aspecta::paving::{Budget, Control, Stop};
 use aspecta::robot::Robot;
@@ -102,7 +102,6 @@ impl Making {
         let options = Options { budget, ..Options::default() };
         let usual = DomainOptions::default();
         let cells = self.cells.map_or(if in_plane { 5 * usual.cells } else { usual.cells }, usize::from);
-        can_be_cut(robot)?;
         let analysis = analyze(robot, &options, control)?;
         let sheet = |id: usize| {
             let mut domains = domains(&analysis, id, DomainOptions { cells, ..usual }, control)?;

@@ -83,11 +83,7 @@ fn unreachable_poses() {
 }
 
 #[test]
-fn direct_problems_that_are_not_available_yet() {
-    refused(
-        "fk gough-stewart --q 1,1,1,1,1,1",
-        &["direct problem of `free-body` platforms is not available yet"],
-    );
+fn six_dimensions_at_once() {
     refused("analyze hexa", &["6 degrees of freedom: aspects are computed for 2 and 3"]);
 }
 

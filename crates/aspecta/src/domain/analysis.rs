@@ -9,22 +9,10 @@ use super::sheet::Sheet;
 use super::uniqueness::maximal_sets;
 use crate::aspect::Analysis;
 use crate::paving::Control;
-use crate::robot::{Platform, Robot};
 use std::collections::BTreeSet;
 
 /// Most nodes of a grid.
 const MOST_NODES: usize = 200_000_000;
-
-/// Whether a robot's aspects can be cut into regions: known before they are.
-///
-/// # Errors
-/// [`DomainError::NoDirectModel`].
-pub fn can_be_cut(robot: &Robot) -> Result<(), DomainError> {
-    match robot.platform {
-        Platform::TurningBody => Err(DomainError::NoDirectModel(robot.platform)),
-        _ => Ok(()),
-    }
-}
 
 /// The basic regions, their images and the uniqueness domains of the aspect with the given [`crate::aspect::Aspect::id`].
 ///
@@ -39,7 +27,6 @@ pub fn domains(
     if !analysis.fixed.is_empty() {
         return Err(DomainError::Slice);
     }
-    can_be_cut(&analysis.robot)?;
     let missing = DomainError::NoAspect { id, count: analysis.aspects.low };
     let (Some(sheet), Some((class, aspect))) = (Sheet::new(analysis, id), analysis.aspect(id)) else {
         return Err(missing);

@@ -17,7 +17,7 @@ use crate::domain::boundary::{Boundary, BoundaryVertex, Simplex};
 use crate::domain::field::Field;
 use crate::kinematics::for_platform;
 use crate::kinematics::modal::Constraint;
-use crate::robot::{Limit, Platform};
+use crate::robot::Limit;
 use net::Net;
 use serde::{Deserialize, Serialize};
 
@@ -76,12 +76,6 @@ pub enum CharacteristicError {
     /// Held coordinates.
     #[error("characteristic surfaces leave a slice: analyse the whole workspace, with no coordinate held")]
     Slice,
-    /// No direct problem.
-    #[error(
-        "characteristic surfaces need the direct problem, which is not available yet for `{0}` platforms (it is for \
-         plane-point, plane-body and translating-body)"
-    )]
-    NoDirectModel(Platform),
     /// The boundary belongs to something else.
     #[error("the boundary of aspect {0} was not computed from this analysis: compute it again")]
     Stranger(usize),
@@ -97,9 +91,6 @@ impl Characteristic {
         let platform = analysis.robot.platform;
         if !analysis.fixed.is_empty() {
             return Err(CharacteristicError::Slice);
-        }
-        if matches!(platform, Platform::TurningBody | Platform::FreeBody) {
-            return Err(CharacteristicError::NoDirectModel(platform));
         }
         let class = analysis.classes.get(boundary.class).filter(|c| {
             c.mode == boundary.mode

@@ -22,7 +22,7 @@ mod result;
 mod sheet;
 mod uniqueness;
 
-pub use analysis::{can_be_cut, domains};
+pub use analysis::domains;
 pub use labels::{Labels, OUTSIDE};
 pub use map::{Location, MAP_VERSION, Map, MapError, MappedAspect, MappedClass, Nowhere};
 pub use mesh::{Mesh, Surfaces};

@@ -6,7 +6,7 @@ use super::sheet::Sheet;
 use crate::aspect::{Analysis, DetSign, Measure};
 use crate::kinematics::WorkingMode;
 use crate::num::without_turns;
-use crate::robot::{Platform, Window};
+use crate::robot::Window;
 use serde::{Deserialize, Serialize};
 
 /// How finely an aspect is partitioned.
@@ -41,9 +41,6 @@ pub enum DomainError {
          to find its domains"
     )]
     Slice,
-    /// No direct model.
-    #[error("the direct model of a {0} is not there yet: its domains cannot be computed")]
-    NoDirectModel(Platform),
     /// Too many nodes.
     #[error("a grid of {nodes} nodes is too large (at most {most}): ask for fewer cells")]
     TooFine {

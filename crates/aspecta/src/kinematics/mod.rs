@@ -94,11 +94,6 @@ pub enum KinematicsError {
         /// The value.
         value: f64,
     },
-    /// The direct problem of this platform is not implemented.
-    #[error(
-        "the direct problem of `{0}` platforms is not available yet (it is for plane-point, plane-body and translating-body)"
-    )]
-    NoDirectModel(crate::robot::Platform),
     /// The length of a strut must be positive.
     #[error("joint coordinate {leg} is {value}, but leg {leg} is a strut, whose length must be positive")]
     StrutLength {

@@ -12,12 +12,14 @@
 //! | [`Jet`] | the value and its gradient (forward mode) |
 
 mod ball;
+mod disc;
 mod interval;
 mod jet;
 mod pack;
 mod slope;
 
 pub use ball::Ball;
+pub use disc::Disc;
 pub use interval::Interval;
 pub use jet::Jet;
 pub use pack::{LANES, Mask, Pack};

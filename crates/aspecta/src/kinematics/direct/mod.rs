@@ -8,6 +8,8 @@
 //! | plane point | two circles (`circles`) | 2 |
 //! | translating body | three spheres (`spheres`) | 2 |
 //! | plane body | 3-RPR: one trigonometric polynomial of degree 3 in φ (`planar_body`) | 6 |
+//! | turning body | three quadrics of P³ in the quaternion (`turning_body`) | 8 |
+//! | free body | Gough-Stewart: seven quadrics of P⁷ in Study parameters (`free_body`) | 40 |
 //!
 //! Nothing is lost near double solutions: intervals decide how many poses there are, and where they cannot, every
 //! pose is returned whose leg equations hold to rounding.
@@ -17,11 +19,15 @@ mod certify;
 mod circles;
 mod cluster;
 mod eliminant;
+mod free_body;
 mod locked;
 mod mirror;
 mod planar_body;
+mod projective;
+mod spatial;
 mod spheres;
 mod triangle;
+mod turning_body;
 
 use super::leg::eliminate;
 use super::limits::{LegAt, margin};
@@ -34,8 +40,8 @@ use locked::{Locked, LockedLegs};
 use serde::Serialize;
 use std::cmp::Ordering;
 
-/// More than any platform has here, to leave room for doubtful near-double poses.
-const CAPACITY: usize = 16;
+/// More than any platform has, to leave room for doubtful near-double poses.
+const CAPACITY: usize = 48;
 
 /// With locked actuators the platform still moves.
 #[derive(Clone, Copy, Debug)]
@@ -45,13 +51,15 @@ struct SelfMotion;
 #[derive(Clone, Debug)]
 struct Roots<const N: usize> {
     poses: ArrayVec<[f64; N], CAPACITY>,
+    /// How many of the first poses are proved already, and to differ from one another.
+    proved: usize,
     /// A proved upper bound of the number of poses, for every q within rounding; `None` where there is none.
     at_most: Option<usize>,
 }
 
 impl<const N: usize> Roots<N> {
     fn none() -> Self {
-        Self { poses: ArrayVec::new(), at_most: Some(0) }
+        Self { poses: ArrayVec::new(), proved: 0, at_most: Some(0) }
     }
 
     fn push(&mut self, pose: [f64; N]) -> Result<(), SelfMotion> {
@@ -84,25 +92,35 @@ impl<const N: usize> Roots<N> {
 /// The poses of a joint vector, without allocation: what [`Robot::direct_poses`] returns.
 #[derive(Clone, Debug)]
 pub struct Poses {
-    list: ArrayVec<[f64; 6], CAPACITY>,
+    list: ArrayVec<Listed, CAPACITY>,
     dof: usize,
     at_most: Option<usize>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Listed {
+    pose: [f64; 6],
+    /// Whether it is proved, and to differ from the others that are.
+    proved: bool,
 }
 
 impl Poses {
     fn new<const N: usize>(platform: Platform, roots: Roots<N>) -> Self {
         let coordinates = platform.coordinates();
-        let list = roots.poses.iter().map(|pose| {
+        let list = roots.poses.iter().enumerate().map(|(i, pose)| {
             let coordinate = |k: usize| if coordinates[k].angle { principal(pose[k]) } else { pose[k] };
-            std::array::from_fn(|k| if k < N { coordinate(k) } else { 0.0 })
+            let pose = std::array::from_fn(|k| if k < N { coordinate(k) } else { 0.0 });
+            Listed { pose, proved: i < roots.proved }
         });
-        let mut list: ArrayVec<[f64; 6], CAPACITY> = list.collect();
+        let mut list: ArrayVec<Listed, CAPACITY> = list.collect();
         // By angles first, then by lengths.
         let by = |a: &[f64; 6], b: &[f64; 6], angle: bool| {
             let keys = (0..N).filter(|&k| coordinates[k].angle == angle);
             keys.fold(Ordering::Equal, |o, k| o.then(a[k].total_cmp(&b[k])))
         };
-        list.sort_unstable_by(|a, b| by(a, b, true).then(by(a, b, false)));
+        list.sort_unstable_by(|Listed { pose: a, .. }, Listed { pose: b, .. }| {
+            by(a, b, true).then(by(a, b, false))
+        });
         Self { list, dof: N, at_most: roots.at_most }
     }
 
@@ -118,7 +136,7 @@ impl Poses {
 
     /// The poses X, as [`Platform::coordinates`] orders their coordinates, sorted by angles, then by lengths.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = &[f64]> {
-        self.list.iter().map(|pose| &pose[..self.dof])
+        self.list.iter().map(|listed| &listed.pose[..self.dof])
     }
 }
 
@@ -146,13 +164,14 @@ impl Robot {
     /// limits are listed too, with `within_limits` false.
     ///
     /// *Certified* means: there is a box round the pose in which the Krawczyk operator proves exactly one
-    /// solution, for every q within a few units in the last place. Near a parallel singularity, where two
+    /// solution, for every q within a few units in the last place (for bodies that turn in space a ball in homogeneous coordinates, and a
+    /// theorem of the same kind). Near a parallel singularity, where two
     /// solutions meet, that may not be possible; a pose whose leg equations hold to rounding is then returned once
     /// or twice, uncertified. [`Robot::direct_certified`] tells, too, whether the list is proved complete.
     ///
     /// # Errors
-    /// [`KinematicsError`] if `q` has the wrong length or is not finite, if a strut's length is not positive, if the
-    /// solutions are infinitely many, or if the platform has no direct model yet.
+    /// [`KinematicsError`] if `q` has the wrong length or is not finite, if a strut's length is not positive, or if the
+    /// solutions are infinitely many.
     pub fn direct(&self, q: &[f64]) -> Result<Vec<Solution>, KinematicsError> {
         Ok(self.direct_certified(q)?.solutions)
     }
@@ -163,7 +182,7 @@ impl Robot {
     /// As [`Robot::direct`].
     pub fn direct_certified(&self, q: &[f64]) -> Result<DirectSolutions, KinematicsError> {
         let legs = self.locked(q)?;
-        let poses = self.poses_of(&legs)?;
+        let poses = self.poses_of(&legs, true)?;
         Ok(for_platform!(self.platform, labelled(self, q, &legs, &poses)))
     }
 
@@ -172,7 +191,7 @@ impl Robot {
     /// # Errors
     /// As [`Robot::direct`].
     pub fn direct_poses(&self, q: &[f64]) -> Result<Poses, KinematicsError> {
-        self.poses_of(&self.locked(q)?)
+        self.poses_of(&self.locked(q)?, false)
     }
 
     fn locked(&self, q: &[f64]) -> Result<LockedLegs, KinematicsError> {
@@ -185,7 +204,8 @@ impl Robot {
         self.legs.iter().enumerate().map(locked).collect()
     }
 
-    fn poses_of(&self, legs: &[Locked]) -> Result<Poses, KinematicsError> {
+    /// `prove`: spatial platforms are proved where they are found.
+    fn poses_of(&self, legs: &[Locked], prove: bool) -> Result<Poses, KinematicsError> {
         let platform = self.platform;
         match platform {
             Platform::PlanePoint => {
@@ -195,15 +215,14 @@ impl Robot {
                 mirror::solve(platform, legs, spheres::intersect).map(|r| Poses::new(platform, r))
             }
             Platform::PlaneBody => planar_body::solve(legs).map(|r| Poses::new(platform, r)),
-            Platform::TurningBody | Platform::FreeBody => {
-                return Err(KinematicsError::NoDirectModel(platform));
-            }
+            Platform::TurningBody => spatial::turning(legs, prove).map(|r| Poses::new(platform, r)),
+            Platform::FreeBody => spatial::free(legs, prove).map(|r| Poses::new(platform, r)),
         }
         .map_err(|SelfMotion| KinematicsError::SelfMotion { robot: self.name.clone() })
     }
 }
 
-/// Certifies and labels `poses`.
+/// Certifies and labels `poses`, of which all or none are proved already if they are to be complete.
 fn labelled<const D: usize, const N: usize>(
     robot: &Robot,
     q: &[f64],
@@ -212,10 +231,11 @@ fn labelled<const D: usize, const N: usize>(
 ) -> DirectSolutions {
     let mut solutions = Vec::with_capacity(poses.len());
     let mut boxes: ArrayVec<[Interval; N], CAPACITY> = ArrayVec::new();
-    for pose in &poses.list {
+    let proved = poses.list.iter().filter(|listed| listed.proved).count();
+    for Listed { pose, proved } in &poses.list {
         let pose: [f64; N] = std::array::from_fn(|k| pose[k]);
-        let proof = certify::certify::<D, N>(robot.platform, legs, pose);
-        let certified = proof.is_some();
+        let proof = if *proved { None } else { certify::certify::<D, N>(robot.platform, legs, pose) };
+        let certified = *proved || proof.is_some();
         if let Some(found) = proof
             && boxes.iter().all(|b| certify::disjoint(robot.platform, b, &found))
         {
@@ -233,7 +253,7 @@ fn labelled<const D: usize, const N: usize>(
             certified,
         });
     }
-    DirectSolutions { solutions, complete: poses.at_most == Some(boxes.len()) }
+    DirectSolutions { solutions, complete: poses.at_most == Some(proved + boxes.len()) }
 }
 
 /// Whether every joint is strictly within its limits at `pose` in `mode`.

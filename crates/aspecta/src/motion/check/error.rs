@@ -69,9 +69,6 @@ pub enum PathError {
     /// There is no direct solution to start in.
     #[error("the first joint vector has no direct solution: no pose of the platform fits it")]
     NoSolution,
-    /// The direct solutions are not known.
-    #[error("the pose at which the path starts is needed: {0}")]
-    NoDirectModel(KinematicsError),
     /// The start is not one.
     #[error("at the first joint vector: {0}")]
     Start(StartError),

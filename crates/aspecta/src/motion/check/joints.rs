@@ -3,7 +3,6 @@
 use super::clearance::{Measures, Place, Stretch, clearance, modulus};
 use super::profile::{self, ProfilePoint};
 use super::{Asked, EFFORT, Joined, Obstacle, PathCheck, PathError, PathOptions, is_limited, join};
-use crate::kinematics::KinematicsError;
 use crate::kinematics::modal::Constraint;
 use crate::kinematics::path::Curve;
 use crate::motion::follow::{BadInput, Follower, Refusal, Survey};
@@ -65,10 +64,7 @@ fn begin(robot: &Robot, q: &[f64], start: Option<&[f64]>) -> Result<Follower, Pa
     if let Some(pose) = start {
         return Follower::new(robot, pose, q).map_err(PathError::Start);
     }
-    let found = robot.direct_certified(q).map_err(|error| match error {
-        KinematicsError::NoDirectModel(_) => PathError::NoDirectModel(error),
-        _ => PathError::Sample { row: 1, error },
-    })?;
+    let found = robot.direct_certified(q).map_err(|error| PathError::Sample { row: 1, error })?;
     match &found.solutions[..] {
         [] => Err(PathError::NoSolution),
         [only] if found.complete => Follower::new(robot, &only.pose, q).map_err(PathError::Start),

@@ -1,0 +1,47 @@
+//! A body that turns about a point, on three legs: at most eight orientations.
+
+use super::locked::Locked;
+use super::projective::{Point, Problem, Quadrics, turned_product};
+use crate::kinematics::placement::out_of_frame;
+use crate::num::{Interval, Scalar};
+use crate::robot::Actuator;
+use std::sync::LazyLock;
+
+/// w(q) · R v = cos(distal), times ‖e‖²: a quadratic form in the quaternion e.
+///
+/// Three quadrics of P³ have at most 2³ = 8 isolated common points (Bézout; Fulton, *Intersection Theory*, 12.3.1), and
+/// ±e is one point of P³ and one orientation. So eight different proved points are all.
+pub(super) const MOST: usize = 8;
+
+/// The form of a locked leg.
+fn form(locked: &Locked) -> [[Interval; 4]; 4] {
+    let Actuator::Spherical { proximal: (cos_p, sin_p), distal_cos } = locked.leg.actuator else {
+        // `Robot::new` lets no other leg carry a turning body.
+        return [[Interval::ENTIRE; 4]; 4];
+    };
+    let (sin, cos) = locked.q.sin_cos();
+    let w: [Interval; 3] = out_of_frame(&locked.leg, &[cos * sin_p, sin * sin_p, cos_p]);
+    let mut m = turned_product(&w, &locked.leg.attachment);
+    for (k, row) in m.iter_mut().enumerate() {
+        row[k] = row[k] - distal_cos;
+    }
+    m
+}
+
+pub(super) fn problem(legs: &[Locked]) -> Problem<'static, 4, 3> {
+    Problem { start: &START.0, points: &START.1, forms: std::array::from_fn(|k| form(&legs[k])) }
+}
+
+/// γₖ (eₖ² − e₀²) = 0, k = 1, 2, 3, which (1, ±1, ±1, ±1) solve. The γₖ are any complex numbers.
+static START: LazyLock<(Quadrics<4, 3>, Vec<Point<4>>)> = LazyLock::new(|| {
+    const GAMMA: [[f64; 2]; 3] = [[0.734, -0.679], [-0.402, 0.916], [0.178, 0.984]];
+    let mut system = Quadrics::ZERO;
+    for (k, [re, im]) in GAMMA.into_iter().enumerate() {
+        let form = &mut system.forms[k];
+        (form[0].re[0], form[0].im[0]) = (-re, -im);
+        (form[k + 1].re[k + 1], form[k + 1].im[k + 1]) = (re, im);
+    }
+    let sign = |bits: usize, k: usize| if bits >> k & 1 == 1 { -1.0 } else { 1.0 };
+    let points = (0..8).map(|bits| Point::real([1.0, sign(bits, 0), sign(bits, 1), sign(bits, 2)]));
+    (system, points.collect())
+});
