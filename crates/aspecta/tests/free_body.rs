@@ -259,33 +259,31 @@ fn more_modes_than_one_pass_takes_are_all_analysed() {
     assert!(all.parallel_aspects.is_empty() && all.serial_aspects.is_empty());
 }
 
-/// At pitch ±90° one orientation has many names: whichever is asked, it lies in the same aspect.
+/// At pitch 90° one orientation has many names: whichever is asked, it lies in the same aspect.
 #[test]
 fn orientations_at_the_pole_have_one_aspect_by_all_their_names() {
     let mut robot = robot("gough-stewart");
-    robot.window[4] = Some((1.3, FRAC_PI_2));
     robot.legs.iter_mut().for_each(|leg| leg.limits.clear());
-    let analysis = analyzed(&robot, GOUGH_SLICES[1], &[], boxes(60_000));
+    (robot.window[3], robot.window[5]) = (Some((-0.8, 0.8)), Some((-0.8, 0.8)));
+    robot.window[4] = Some((1.4, FRAC_PI_2));
+    let analysis = analyzed(&robot, GOUGH_SLICES[1], &[], boxes(40_000));
     assert!(analysis.aspects.high.is_none_or(|high| analysis.aspects.low <= high));
     let mut named = 0;
     for (k, class) in analysis.classes.iter().enumerate() {
-        for pole in [1.0] {
-            for difference in 0..24 {
-                let mut seen = std::collections::BTreeSet::new();
-                for name in 0..48 {
-                    let yaw = -3.0 + 0.125 * f64::from(name);
-                    let roll = pole * yaw + 0.2618 * f64::from(difference);
-                    let x = [0.4, 0.3, 0.6, roll, pole * (FRAC_PI_2 - 1e-9), yaw];
-                    if let Place::Inside(id) = analysis.locate(k, &x) {
-                        seen.insert(id);
-                    }
+        for difference in -14..=14 {
+            let mut seen = std::collections::BTreeSet::new();
+            for name in -14..=14 {
+                let yaw = 0.05 * f64::from(name);
+                let x = [0.4, 0.3, 0.6, yaw + 0.05 * f64::from(difference), FRAC_PI_2 - 1e-9, yaw];
+                if let Place::Inside(id) = analysis.locate(k, &x) {
+                    seen.insert(id);
+                    named += 1;
                 }
-                assert!(seen.len() <= 1, "{} {pole} {difference}: {seen:?}", class.det_a);
-                named += seen.len();
             }
+            assert!(seen.len() <= 1, "{} {difference}: {seen:?}", class.det_a);
         }
     }
-    assert!(named > 0, "no orientation at the pole was decided");
+    assert!(named > 50, "{named} names at the pole were decided");
 }
 
 /// A slice that holds roll or yaw ends at pitch ±90°; one that holds neither, or both are free, goes on there.
