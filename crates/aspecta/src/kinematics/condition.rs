@@ -95,8 +95,9 @@ mod tests {
     #[test]
     fn matrices_become_triangular() {
         for seed in 0..50 {
-            let entry =
-                |j: usize, i: usize| ((seed * 13 + 37 * j + 101 * i) as f64 * 0.754_877_666).fract() - 0.5;
+            let entry = |j: usize, i: usize| {
+                ((seed * 13 + 7 * j * j + 3 * i * i * i + 11 * i * j) as f64 * 0.754_877_666).fract() - 0.5
+            };
             let a: [[f64; 6]; 6] = std::array::from_fn(|j| std::array::from_fn(|i| entry(j, i)));
             let (z, det) = triangular(a).unwrap();
             let matrix = |m: &[[f64; 6]; 6]| SMatrix::<f64, 6, 6>::from_fn(|i, j| m[i][j]);

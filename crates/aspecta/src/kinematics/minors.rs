@@ -115,7 +115,6 @@ fn laplace<T: Scalar, const N: usize>(above: &Minors<T, N>, below: &Minors<T, N>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::{SMatrix, matrix};
 
     fn check<const N: usize>(seed: u32) {
         let entry = |j: usize, i: usize| {
@@ -142,8 +141,7 @@ mod tests {
             check::<5>(seed);
             check::<6>(seed);
         }
-        let known: SMatrix<f64, 2, 2> = matrix![3.0, 4.0; 5.0, 6.0];
-        assert_eq!(determinant(&[[3.0, 4.0], [5.0, 6.0]]), known.determinant().round());
+        assert_eq!(determinant(&[[3.0, 4.0], [5.0, 6.0]]), -2.0);
     }
 
     /// The derivative of an enclosure's determinant holds those of all its matrices.
