@@ -46,7 +46,7 @@ pub fn reasons(analysis: &Analysis) -> Vec<String> {
         format!(
             "det A vanishes to order {} on a surface, where the rods of legs {legs} are parallel: poses at {} {unit} from ({}), q{} = {:.4}. \
              Its sign need not change there, so boxes on it are never decided; limits that keep the joints from there would help.",
-            rods.legs.len() - 1,
+            rods.order,
             shown(rods.radius),
             rods.centre.map(shown).join(", "),
             rods.legs[0],

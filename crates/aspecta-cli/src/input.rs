@@ -99,6 +99,18 @@ pub fn mode(robot: &Robot, text: &str) -> Result<WorkingMode, Failure> {
     })
 }
 
+/// The working modes given to `--mode`, each once.
+pub fn modes(robot: &Robot, given: &[String]) -> Result<Vec<WorkingMode>, Failure> {
+    let mut modes = Vec::new();
+    for text in given {
+        let mode = mode(robot, text.trim())?;
+        if !modes.contains(&mode) {
+            modes.push(mode);
+        }
+    }
+    Ok(modes)
+}
+
 /// A line of a CSV file.
 pub struct Row {
     /// Its line number.

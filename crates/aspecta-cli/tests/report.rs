@@ -130,9 +130,9 @@ fn what_is_undecided_is_not_white() {
             let holds = |c: &Cell| (0..3).all(|a| c.lo[a] <= pose[a] && pose[a] < c.hi[a]);
             let place = analysis.locate(class, &pose);
             assert_eq!(drawn.iter().any(holds), place != Place::Outside, "{pose:?}");
-            let (leaf, _) = analysis.paving.descend_to(&pose, &mut |_| false).unwrap();
+            let (leaf, _) = analysis.pavings[0].descend_to(&pose, &mut |_| false).unwrap();
             of_folds +=
-                usize::from(place == Place::Undecided && analysis.paving.nodes[leaf as usize].covered);
+                usize::from(place == Place::Undecided && analysis.pavings[0].nodes[leaf as usize].covered);
         }
     }
     assert!(of_folds > 100, "{of_folds} poses: the test tests nothing");

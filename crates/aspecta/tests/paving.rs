@@ -304,7 +304,7 @@ fn certificates_hold() {
     let mut seen = [[0usize; 4]; FAMILIES];
     for (family, robot, rest) in robots(40) {
         let Some(analysis) = analyzed(&robot) else { continue };
-        let paving = &analysis.paving;
+        let paving = &analysis.pavings[0];
         let mut dice = Dice(rest.iter());
         let seen = &mut seen[family];
         for _ in 0..100 {
@@ -333,7 +333,7 @@ fn certificates_hold_in_slices() {
         let value = |k: usize, dice: &mut Dice| dice.between(window.ranges[k].0, window.ranges[k].1);
         let fix: Vec<_> = held.iter().map(|&k| (k, value(k, &mut dice))).collect();
         let Some(analysis) = analyzed_slice(&robot, fix.clone()) else { continue };
-        let paving = &analysis.paving;
+        let paving = &analysis.pavings[0];
         assert_eq!(paving.axes.len() + held.len(), robot.dof());
         for _ in 0..100 {
             let node =
@@ -384,8 +384,8 @@ fn located_poses_are_where_they_are_said_to_be() {
         let Some(analysis) = analyzed(&robot) else { continue };
         let mut dice = Dice(rest.iter());
         for _ in 0..100 {
-            let x = pose_in(&analysis.paving, 0, &mut dice);
-            for (class, mode, sign) in classes(&analysis.paving) {
+            let x = pose_in(&analysis.pavings[0], 0, &mut dice);
+            for (class, mode, sign) in classes(&analysis.pavings[0]) {
                 let is_member = member(&robot, mode, sign, &x);
                 match analysis.locate(class, &x) {
                     Place::Inside(id) => {

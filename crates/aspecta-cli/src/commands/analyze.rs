@@ -39,6 +39,10 @@ pub struct Analyze {
     /// commas, for several. det A stays that of the whole robot
     #[arg(long, value_name = "COORDINATE=VALUE", value_delimiter = ',')]
     fix: Vec<String>,
+    /// Analyse this working mode only, such as +-+; again, or separated by commas, for several [default: all]. A robot with more than 8 is paved once for every
+    /// 8, which share the budget
+    #[arg(long, value_name = "SIGNS", value_delimiter = ',', allow_hyphen_values = true)]
+    mode: Vec<String>,
     /// Number of threads [default: all cores]; the result does not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
@@ -53,7 +57,8 @@ impl Analyze {
         }
         let proof = self.certificate.as_deref().map(|path| Target::new("--certificate", path)).transpose()?;
         let budget = self.budget.unwrap_or_default();
-        let options = Options { budget, fix, certificate: proof.is_some(), ..Options::default() };
+        let modes = input::modes(&robot, &self.mode)?;
+        let options = Options { budget, fix, modes, certificate: proof.is_some() };
         let analysis = watch::watched(self.threads, |control| analyze(&robot, &options, control))??;
         self.print(out, &analysis)?;
         if let (Some(target), Some(certificate)) = (&proof, &analysis.certificate) {

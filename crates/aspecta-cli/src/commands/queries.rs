@@ -102,6 +102,14 @@ impl Labels {
         Self { units: columns.angles.iter().map(unit).collect(), columns, degrees }
     }
 
+    /// Those of some coordinates, by index.
+    pub fn only(mut self, which: &[usize]) -> Self {
+        self.columns.names = which.iter().map(|&k| self.columns.names[k].clone()).collect();
+        self.columns.angles = which.iter().map(|&k| self.columns.angles[k]).collect();
+        self.units = which.iter().map(|&k| self.units[k].clone()).collect();
+        self
+    }
+
     /// Column headings: `x [mm]`.
     pub fn headings(&self) -> impl Iterator<Item = String> + '_ {
         self.columns.names.iter().zip(&self.units).map(|(name, unit)| format!("{name} [{unit}]"))

@@ -5,7 +5,10 @@ use super::queries::Labels;
 use crate::failure::Failure;
 use crate::output::{Align, Table, brief};
 use aspecta::aspect::{Analysis, Aspect, AspectClass, DetSign, EarlierAspects, Held, Measure, Reachable};
+use aspecta::kinematics::WorkingMode;
 use aspecta::paving::Stop;
+use aspecta::robot::Robot;
+use aspecta_cli::report::EARLIER_NEED;
 use std::io::Write;
 
 /// Columns of the terminal that the summary is made for.
@@ -27,8 +30,16 @@ pub fn print(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
     doubts::print(out, analysis)?;
     aspects(out, analysis)?;
     writeln!(out)?;
-    paragraph(out, &earlier("Def. 5, parallel aspects", &analysis.parallel_aspects, &analysis.measure))?;
-    paragraph(out, &earlier("Def. 6, serial aspects", &analysis.serial_aspects, &analysis.measure))?;
+    let earlier_sets = [
+        ("Def. 5, parallel aspects", &analysis.parallel_aspects),
+        ("Def. 6, serial aspects", &analysis.serial_aspects),
+    ];
+    for (name, sets) in earlier_sets.into_iter().filter(|(_, sets)| !sets.is_empty()) {
+        paragraph(out, &earlier(name, sets, &analysis.measure))?;
+    }
+    if analysis.parallel_aspects.is_empty() {
+        paragraph(out, &format!("Defs 5 and 6: left out, {EARLIER_NEED}."))?;
+    }
     writeln!(out)?;
     paragraph(out, &run(analysis))
 }
@@ -71,22 +82,56 @@ fn theorem_1(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
 
 fn table_1(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
     writeln!(out, "\nTable 1: working modes (Def. 7)")?;
-    let labels = Labels::pose(&analysis.robot, false);
-    let signs = (1..=analysis.robot.dof()).map(|j| (format!("B_{j}{j}"), Align::Left));
+    let shown = shown(analysis);
+    let labels = Labels::pose(&analysis.robot, false).only(&shown);
+    let signs = sign_headings(&analysis.robot);
     let last = [("reachable".into(), Align::Left), ("for example at".into(), Align::Left)];
     let mut table = Table::new([("mode".to_owned(), Align::Left)].into_iter().chain(signs).chain(last));
     for report in &analysis.modes {
-        let signs = report.mode.signs().map(|s| if s > 0 { " +" } else { " -" }.to_owned());
+        let signs = signs_of(report.mode);
         let reachable = match report.reachable {
             Reachable::Yes => "yes",
             Reachable::No => "no",
             Reachable::Undecided => "undecided",
         };
-        let example = report.sample.as_ref().map_or(String::new(), |s| labels.brief(&s.pose));
+        let example = report.sample.as_ref().map_or(String::new(), |s| labels.brief(&at(&s.pose, &shown)));
         let number = format!("Mf{}", report.number);
         table.row([number].into_iter().chain(signs).chain([reachable.into(), example]));
     }
     Ok(write!(out, "{table}")?)
+}
+
+/// Whether the coordinates of a robot are too many for a line of the terminal: those that are held, and the joints, are left to the JSON.
+fn is_wide(robot: &Robot) -> bool {
+    robot.dof() > 3
+}
+
+/// The pose coordinates that are listed.
+fn shown(analysis: &Analysis) -> Vec<usize> {
+    if is_wide(&analysis.robot) { analysis.window.axes() } else { (0..analysis.robot.dof()).collect() }
+}
+
+fn at(values: &[f64], which: &[usize]) -> Vec<f64> {
+    which.iter().filter_map(|&k| values.get(k).copied()).collect()
+}
+
+/// A column a sign, or one for all if they are many.
+fn sign_headings(robot: &Robot) -> impl Iterator<Item = (String, Align)> {
+    let n = robot.dof();
+    let headings: Vec<String> = if is_wide(robot) {
+        vec![format!("B_11 … B_{n}{n}")]
+    } else {
+        (1..=n).map(|j| format!("B_{j}{j}")).collect()
+    };
+    headings.into_iter().map(|heading| (heading, Align::Left))
+}
+
+/// The signs of a mode, as [`sign_headings`] arranges them.
+fn signs_of(mode: WorkingMode) -> Vec<String> {
+    if mode.legs() > 3 {
+        return vec![mode.to_string()];
+    }
+    mode.signs().map(|s| if s > 0 { " +" } else { " -" }.to_owned()).collect()
 }
 
 fn table_2(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
@@ -95,14 +140,14 @@ fn table_2(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
         "\nTable 2: generalized aspects (Def. 8), {} in {}",
         analysis.measure.name, analysis.measure.unit
     )?;
-    let signs = (1..=analysis.robot.dof()).map(|j| (format!("B_{j}{j}"), Align::Left));
+    let signs = sign_headings(&analysis.robot);
     let numbers = ["aspects", "certified inside", "undecided", "undecided share"];
     let numbers = numbers.map(|name| (name.to_owned(), Align::Right));
     let mut table = Table::new([("det A".to_owned(), Align::Left)].into_iter().chain(signs).chain(numbers));
     // The paper's order: all modes with det A > 0, then all with det A < 0.
     for det_a in [DetSign::Positive, DetSign::Negative] {
         for class in analysis.classes.iter().filter(|c| c.det_a == det_a) {
-            let signs = class.mode.signs().map(|s| if s > 0 { " +" } else { " -" }.to_owned());
+            let signs = signs_of(class.mode);
             let numbers =
                 [bounds(class.low, class.high), brief(class.measure), brief(class.undecided), share(class)];
             table.row([format!("  {det_a}")].into_iter().chain(signs).chain(numbers));
@@ -126,7 +171,11 @@ fn aspects(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
         return Ok(());
     }
     writeln!(out, "\nAspects, each with a configuration inside")?;
-    let (pose, joints) = (Labels::pose(&analysis.robot, false), Labels::joints(&analysis.robot, false));
+    let (shown, robot) = (shown(analysis), &analysis.robot);
+    // More joints than three have no room.
+    let joints_shown: Vec<usize> = if is_wide(robot) { Vec::new() } else { (0..robot.dof()).collect() };
+    let (pose, joints) =
+        (Labels::pose(robot, false).only(&shown), Labels::joints(robot, false).only(&joints_shown));
     let right = |name: &str| (name.to_owned(), Align::Right);
     let left = |name: &str| (name.to_owned(), Align::Left);
     let names = [right("id"), left("mode"), left("det A"), right(analysis.measure.name), right("pieces")];
@@ -140,7 +189,8 @@ fn aspects(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
             brief(aspect.measure),
             aspect.pieces.to_string(),
         ];
-        let vectors = aspect.sample.pose.iter().chain(&aspect.sample.q).map(|x| brief(*x));
+        let vectors = at(&aspect.sample.pose, &shown).into_iter().chain(at(&aspect.sample.q, &joints_shown));
+        let vectors = vectors.map(brief);
         table.row(first.into_iter().chain(vectors));
     }
     write!(out, "{table}")?;

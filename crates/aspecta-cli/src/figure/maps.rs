@@ -29,7 +29,7 @@ const HEADING: f64 = 20.0;
 
 /// Figure 9: a row a mode, W and Q for det A > 0 and for det A < 0; without Q two modes a row.
 pub fn figure_9(survey: &Survey<'_>) -> String {
-    let modes = survey.robot.working_modes();
+    let modes: Vec<_> = survey.curves.iter().map(|curves| curves.mode).collect();
     let layout = Layout::new(survey, 225.0);
     let size = layout.size(2 * modes.len());
     let spaces = if survey.joint_axes.is_some() { "W-aspects and Q-aspects" } else { "W-aspects" };
@@ -312,7 +312,7 @@ pub fn parallel_aspects(survey: &Survey<'_>) -> String {
 
 /// The aspects of Definition 6 (one mode, both signs of det A) in W and in Q, counted alike.
 pub fn serial_aspects(survey: &Survey<'_>) -> String {
-    let modes = survey.robot.working_modes().into_iter();
+    let modes = survey.curves.iter().map(|curves| curves.mode);
     let rows: Vec<_> = modes.map(|m| (format!("mode ({})", signs(&m.to_string())), None, Some(m))).collect();
     overlaid(survey, "serial-aspects", "Serial aspects (Definition 6)", &rows)
 }

@@ -121,7 +121,7 @@ fn sheet(
             let number = label as usize + 1;
             (number <= domains.regions.len() && is_shown(number)).then(|| number.to_string())
         });
-        chart.frame(&mut svg, &if in_plane { String::new() } else { place(robot, at) });
+        chart.frame(&mut svg, &if in_plane { String::new() } else { place(robot, 2, at) });
     }
     legend.draw(&mut svg, height + 10.0);
     svg.finish()

@@ -34,12 +34,14 @@ pub struct ModeCells<'a> {
     pub classes: &'a [(&'a AspectClass, &'a [Cell])],
 }
 
-/// Slices of a mode's W-aspects across the third coordinate, both signs of det A together, with singular curves.
+/// Slices of a mode's W-aspects across the third coordinate that varies, both signs of det A together, with singular curves.
 ///
 /// `sides` are the numbers of finest cells along the axes.
 pub fn slices(robot: &Robot, window: &Window, sides: [usize; 3], mode: &ModeCells<'_>) -> String {
-    let axes = [0, 1].map(|k| pose_axis(robot, window, k));
-    let range = window.ranges[2];
+    let free = window.axes();
+    let (across, through) = (free[2], window.ranges.iter().map(|r| r.0).collect::<Vec<_>>());
+    let axes = [0, 1].map(|a| pose_axis(robot, window, free[a]));
+    let range = window.ranges[across];
     let panels = Panels::new(axes.clone(), SIDE, 3, 0.0);
     let (width, height) = panels.size(SLICES);
     let size = (width.max(700.0), height + 52.0);
@@ -51,23 +53,25 @@ pub fn slices(robot: &Robot, window: &Window, sides: [usize; 3], mode: &ModeCell
         let chart = panels.chart(k);
         let raster = slice(mode, &axes, [sides[0].min(PIXELS), sides[1].min(PIXELS)], at);
         fill(&mut svg, &chart, &raster, label_colour);
-        let plane = Plane { through: vec![at; 3], axes: [0, 1] };
+        let mut through = through.clone();
+        through[across] = at;
+        let plane = Plane { through, axes: [free[0], free[1]] };
         let sheet = Sheet { robot, mode: mode.mode, plane: &plane };
         let grid = Grid { x: axes[0].range, y: axes[1].range, n: GRID };
         let lines = sheet.curves(&grid).into_iter().map(|c| (c.kind, c.points)).collect();
         draw_lines(&mut svg, &chart, &lines, [false; 2]);
-        chart.frame(&mut svg, &format!("({text}), {}", place(robot, at)));
+        chart.frame(&mut svg, &format!("({text}), {}", place(robot, across, at)));
     }
     aspects(&mut svg, mode, [panels.left, size.1 - 30.0], size.0);
     legend(&mut svg, [panels.left, size.1 - 12.0]);
     svg.finish()
 }
 
-/// Where across the third coordinate a slice is: `φ = 0.5 rad`.
-pub(crate) fn place(robot: &Robot, at: f64) -> String {
-    let third = robot.platform.coordinates()[2];
-    let unit = if third.angle { "rad" } else { &robot.length_unit };
-    format!("{} = {} {unit}", coordinate_name(third.name), Number(at)).replace('-', "−")
+/// Where across a coordinate a slice is: `φ = 0.5 rad`.
+pub(crate) fn place(robot: &Robot, coordinate: usize, at: f64) -> String {
+    let coordinate = robot.platform.coordinates()[coordinate];
+    let unit = if coordinate.angle { "rad" } else { &robot.length_unit };
+    format!("{} = {} {unit}", coordinate_name(coordinate.name), Number(at)).replace('-', "−")
 }
 
 /// Plots of the same shape in rows.

@@ -32,7 +32,7 @@ pub struct Survey<'a> {
     pub joint_axes: Option<[Axis; 2]>,
     /// One entry a class.
     pub classes: Vec<ClassMap<'a>>,
-    /// The boundary curves, one entry a working mode.
+    /// The boundary curves, one entry a working mode that was analysed.
     pub curves: Vec<ModeCurves>,
 }
 
@@ -80,10 +80,10 @@ impl<'a> Survey<'a> {
         });
         let classes = maps.collect();
         let grid = Grid { x: pose_axes[0].range, y: pose_axes[1].range, n: GRID };
-        let curves = robot
-            .working_modes()
-            .into_par_iter()
-            .map(|mode| mode_curves(&sheet(mode), &grid, joint_axes.as_ref()))
+        let curves = analysis
+            .modes
+            .par_iter()
+            .map(|report| mode_curves(&sheet(report.mode), &grid, joint_axes.as_ref()))
             .collect();
         Self { robot, slice: slice_name(&analysis.fixed), axes, pose_axes, joint_axes, classes, curves }
     }

@@ -14,6 +14,9 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+/// Why an analysis has no parallel and serial aspects.
+pub const EARLIER_NEED: &str = "they are made of all working modes, of up to 8, together";
+
 /// A figure: its file name without extension, and the SVG.
 type Figure = (String, String);
 
@@ -33,8 +36,8 @@ struct FlatFigures {
     /// Figure 9, or its likeness of a slice.
     overview: Figure,
     classes: Vec<Figure>,
-    parallel: Figure,
-    serial: Figure,
+    /// Parallel and serial aspects, if the analysis has them.
+    earlier: Option<[Figure; 2]>,
 }
 
 /// Writes `report.html` and `figures/*.svg` into `dir`, which is created if need be, and returns the paths written.
@@ -62,7 +65,7 @@ impl Figures {
         let flat = self
             .flat
             .iter()
-            .flat_map(|f| [&f.overview].into_iter().chain(&f.classes).chain([&f.parallel, &f.serial]));
+            .flat_map(|f| [&f.overview].into_iter().chain(&f.classes).chain(f.earlier.iter().flatten()));
         self.robot.iter().chain([&self.postures]).chain(&self.strips).chain(flat).chain(&self.slices)
     }
 }
@@ -93,13 +96,18 @@ fn flat(analysis: &Analysis, cells: &[Vec<Cell>]) -> FlatFigures {
     FlatFigures {
         overview: (overview.into(), maps::figure_9(&survey)),
         classes: analysis.classes.iter().map(class).collect(),
-        parallel: ("parallel-aspects".into(), maps::parallel_aspects(&survey)),
-        serial: ("serial-aspects".into(), maps::serial_aspects(&survey)),
+        earlier: (!analysis.parallel_aspects.is_empty()).then(|| {
+            [
+                ("parallel-aspects".into(), maps::parallel_aspects(&survey)),
+                ("serial-aspects".into(), maps::serial_aspects(&survey)),
+            ]
+        }),
     }
 }
 
 fn mode_slices(analysis: &Analysis, cells: &[Vec<Cell>]) -> Vec<Figure> {
-    let sides = std::array::from_fn(|k| side(analysis, k));
+    let free = analysis.window.axes();
+    let sides = std::array::from_fn(|a| side(analysis, free[a]));
     let figure = |m: &aspecta::aspect::ModeReport| {
         let with_cells = analysis.classes.iter().zip(cells);
         let classes: Vec<(&AspectClass, &[Cell])> =

@@ -211,7 +211,7 @@ fn volume_section(analysis: &Analysis, figures: &Figures, volume: &str) -> Marku
             script #volume type="application/json" { (PreEscaped(volume)) }
             p { "Nine slices of each mode, with the singular curves:" }
             (tabs("slices", &names, &figures.slices, |k| html! {
-                "Mode (" (signs(&analysis.modes[k].mode.to_string())) "): slices across the third coordinate, both signs of det A. \
+                "Mode (" (signs(&analysis.modes[k].mode.to_string())) "): slices across the third free coordinate, both signs of det A. \
                  Solid: det A = 0; dashed: a leg stretched or folded."
             }))
         }
@@ -225,20 +225,21 @@ fn earlier_section(analysis: &Analysis, figures: &Figures) -> Markup {
             p { "Parallel aspects (Definition 5) divide the poses by the sign of det A; serial aspects (Definition 6) divide the joint \
                  vectors by the signs of the B" sub { "jj" } ". Each was made for robots with one solution of the inverse, or of the \
                  direct, model. This robot has several of both, and then neither tells its solutions apart." }
-            @if let Some(flat) = &figures.flat {
-                (figure(&flat.parallel, html! {
+            @if analysis.parallel_aspects.is_empty() { p { "They are left out here: " (super::EARLIER_NEED) "." } }
+            @if let Some([parallel, serial]) = figures.flat.as_ref().and_then(|flat| flat.earlier.as_ref()) {
+                (figure(parallel, html! {
                     "Definition 5 (figures 6 and 7 of the paper): all configurations with det A of one sign, in W" @if has_q(analysis) { " and in Q" } ". Shades count the \
                      configurations over a place. More than one over a pose: the domain holds several inverse solutions and does \
                      not separate them. In W both signs share " (number(analysis.parallel_aspects.first().map_or(0.0, |e| e.overlap))) " "
                     (measure_unit(&analysis.measure)) " (certified): there the sign of det A says nothing about where the robot is."
                 }))
-                (figure(&flat.serial, html! {
+                (figure(serial, html! {
                     "Definition 6: all configurations of one working mode, in W"
                     @if has_q(analysis) { " and in Q. Two over a joint vector: the domain holds several direct solutions and does not separate them" }
                     ". The grey lines within are the undecided cells along det A = 0."
                 }))
             }
-            div.scroll { (tables::earlier(analysis)) }
+            @if !analysis.parallel_aspects.is_empty() { div.scroll { (tables::earlier(analysis)) } }
         }
     }
 }

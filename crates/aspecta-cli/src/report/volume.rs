@@ -49,8 +49,9 @@ pub fn json(analysis: &Analysis, cells: &[Vec<Cell>]) -> std::io::Result<String>
         let label = format!("{} [{unit}]", coordinate_name(coordinates[k].name));
         VolumeAxis { label, range: analysis.window.ranges[k], angle: coordinates[k].angle }
     };
-    let size = std::array::from_fn(|k| super::side(analysis, k).min(VOXELS));
-    let ranges: [_; 3] = std::array::from_fn(|k| analysis.window.ranges[k]);
+    let free = analysis.window.axes();
+    let size = std::array::from_fn(|a| super::side(analysis, free[a]).min(VOXELS));
+    let ranges: [_; 3] = std::array::from_fn(|a| analysis.window.ranges[free[a]]);
     let classes = analysis.classes.iter().zip(cells).map(|(class, cells)| {
         let local = |id: usize| class.aspects.iter().position(|a| a.id == id).map_or(1, |k| k + 2);
         VolumeClass {
@@ -68,7 +69,7 @@ pub fn json(analysis: &Analysis, cells: &[Vec<Cell>]) -> std::io::Result<String>
     let number =
         |m: &aspecta::aspect::ModeReport| classes.iter().any(|c| c.mode == m.mode).then_some(m.number);
     let numbers = analysis.modes.iter().filter_map(number).collect();
-    let volume = Volume { axes: (0..3).map(axis).collect(), size, numbers, classes };
+    let volume = Volume { axes: free.iter().map(|&k| axis(k)).collect(), size, numbers, classes };
     // `<` only occurs within strings, where an escape is as good.
     Ok(serde_json::to_string(&volume)?.replace('<', "\\u003c"))
 }

@@ -166,3 +166,43 @@ fn bounds_that_meet_leave_no_doubts() {
     let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(words.ends_with("the bounds meet, exactly 10 aspects."), "{text}");
 }
+
+/// Robots with six degrees of freedom: slices, all 64 working modes of the Hexa or those asked for, in 100 columns.
+#[test]
+fn slices_of_robots_with_six_degrees_of_freedom() {
+    for (arguments, words) in [
+        (
+            "gough-stewart --fix roll=0,pitch=0,yaw=0 --budget depth=4",
+            &["(free: x, y, z;", "volume in unit^3", "------", "Def. 5", "Def. 6"][..],
+        ),
+        (
+            "gough-stewart --fix x=0.3,y=0.2,z=0.6 --budget depth=4",
+            &["(free: roll, pitch, yaw;", "volume in rad^3"],
+        ),
+        ("hexa --fix z=-600,roll=0,pitch=0,yaw=0 --budget depth=5", &["Mf64", "area in mm^2", "left out"]),
+        (
+            "hexa --fix y=20,z=-600,roll=0,pitch=0.1,yaw=0 --mode ------ --mode ++++++,------",
+            &["Mf43", "length in mm", "left out", "certified: exactly"],
+        ),
+    ] {
+        let text = stdout(&format!("analyze {arguments}"));
+        for words in words {
+            assert!(text.contains(words), "{words} in\n{text}");
+        }
+        let widest = text.lines().map(|line| line.chars().count()).max();
+        assert!(widest <= Some(100), "{widest:?} columns:\n{text}");
+    }
+    let fix = "--fix y=20,z=-600,roll=0,pitch=0.1,yaw=0 --budget depth=8 --json";
+    let result = json(&format!("analyze hexa {fix} --mode -+-+-+,------"));
+    let modes: Vec<_> = result["modes"].as_array().unwrap().iter().map(|mode| mode["mode"].clone()).collect();
+    assert_eq!(modes, [json!("-+-+-+"), json!("------")]);
+    assert_eq!(result["classes"].as_array().unwrap().len(), 4);
+    for class in result["classes"].as_array().unwrap() {
+        for aspect in class["aspects"].as_array().unwrap() {
+            assert_eq!(numbers(&aspect["sample"]["pose"])[1..], [20.0, -600.0, 0.0, 0.1, 0.0]);
+            assert_eq!(numbers(&aspect["sample"]["q"]).len(), 6);
+        }
+    }
+    let all = json(&format!("analyze hexa {fix}"));
+    assert_eq!(all["modes"].as_array().unwrap().len(), 64);
+}

@@ -13,8 +13,8 @@ use super::search::Search;
 use crate::certificate::{Certificate, Claim, Join, Seam};
 use crate::kinematics::WorkingMode;
 use crate::kinematics::parallel_rods::{ParallelRods, parallel_rods};
-use crate::paving::{Budget, Control, Mark, Node, Paving, Progress};
-use crate::robot::{Actuator, Leg, Robot, SliceError};
+use crate::paving::{Budget, Control, MODES, Mark, Node, Paving, Progress, Stop};
+use crate::robot::{Actuator, Leg, Robot, SliceError, Window};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::time::Instant;
@@ -31,9 +31,10 @@ pub struct Options {
     /// Coordinates to hold (index, value), as in [`Robot::slice`]: what is analysed are the poses that have these values.
     pub fix: Vec<(usize, f64)>,
     /// The working modes to analyse, in this order; empty: all of the robot. With some only, the classes, bounds and numbers are
-    /// those of these modes, and Definitions 5 and 6 are left out.
+    /// those of these modes, and Definitions 5 and 6 are left out, as they are for more modes than one pass takes
+    /// ([`crate::paving::MODES`]).
     pub modes: Vec<WorkingMode>,
-    /// Whether to keep the proof: [`Analysis::certificate`].
+    /// Whether to keep the proof: [`Analysis::certificate`]. For up to three degrees of freedom.
     pub certificate: bool,
 }
 
@@ -51,9 +52,26 @@ pub enum AnalysisError {
         /// The mode asked for.
         mode: WorkingMode,
     },
-    /// Too many degrees of freedom to be paved whole.
-    #[error("robot `{robot}` has {dof} degrees of freedom: aspects are computed for 2 and 3")]
+    /// Too many free coordinates to be paved.
+    #[error(
+        "robot `{robot}` has {dof} degrees of freedom, {free} of them free, but aspects are computed for up to 3 free \
+         coordinates: analyse a slice, for instance `aspecta analyze {robot} --fix {hold}`"
+    )]
     Dimension {
+        /// Robot name.
+        robot: String,
+        /// Its degrees of freedom.
+        dof: usize,
+        /// How many coordinates are not held.
+        free: usize,
+        /// Coordinates to hold and values, as the program takes them: a slice with three free coordinates.
+        hold: String,
+    },
+    /// No certificate can be made.
+    #[error(
+        "robot `{robot}` has {dof} degrees of freedom, and certificates are made and verified for up to 3: analyse it without one"
+    )]
+    Certificate {
         /// Robot name.
         robot: String,
         /// Its degrees of freedom.
@@ -61,9 +79,9 @@ pub enum AnalysisError {
     },
 }
 
-/// Working modes (Def. 7) and generalized aspects (Def. 8) of a robot of dimension 2 or 3.
+/// Working modes (Def. 7) and generalized aspects (Def. 8) of a robot with up to three free coordinates.
 ///
-/// The workspace is paved once for all modes; per mode and sign of det A the aspects are bounded by
+/// The workspace is paved once for each [`crate::paving::MODES`] modes, a budget being shared among these passes; per mode and sign of det A the aspects are bounded by
 ///
 /// - **low** (certified): the number of components of G⁺, the graph of inside and undecided boxes that share a
 ///   point, which hold an inside box. A component of S_{s,σ} is connected and covered by those closed
@@ -80,59 +98,132 @@ pub enum AnalysisError {
 /// lies in one aspect of the robot; several may lie in the same.
 ///
 /// # Errors
-/// [`AnalysisError`] if the workspace is unbounded or empty, its dimension is not 2 or 3, there is no such slice, or no such mode.
+/// [`AnalysisError`] if the workspace is unbounded or empty, more than three coordinates are free, there is no such slice or no such
+/// mode, or no certificate for such a robot.
 pub fn analyze(robot: &Robot, options: &Options, control: &Control<'_>) -> Result<Analysis, AnalysisError> {
     let start = Instant::now();
-    if robot.dof() > 3 {
-        return Err(AnalysisError::Dimension { robot: robot.name.clone(), dof: robot.dof() });
-    }
+    refuse(robot, options)?;
     let window = robot.slice(&options.fix)?;
     let all_modes = robot.working_modes();
     if let Some(&mode) = options.modes.iter().find(|mode| !all_modes.contains(mode)) {
         return Err(AnalysisError::Mode { robot: robot.name.clone(), mode });
     }
     let modes = if options.modes.is_empty() { &all_modes } else { &options.modes };
-    let parallel_rods = parallel_rods(robot);
-    let search = Search::run(robot, &window, modes, &bounded(options.budget, &parallel_rods), control);
-    let Search { atlas, counted, stop } = search;
-    let paving = &atlas.sheets[0];
-    let found: Vec<Found> =
-        counted.par_iter().map(|(class, counted)| Found::new(&atlas, *class, counted)).collect();
-    let doubts = counted.iter().flat_map(|(class, counted)| doubts(&atlas, *class, counted)).collect();
+    let parallel_rods = parallel_rods(robot, &window);
+    let budget = bounded(options.budget, &parallel_rods);
+    let mut passes: Vec<Pass> = Vec::new();
+    let groups = modes.chunks(MODES);
+    for (k, group) in groups.clone().enumerate() {
+        let spent = (passes.iter().map(|pass| pass.boxes).sum(), start.elapsed().as_secs_f64());
+        let share = budget.share(groups.len() - k, spent);
+        passes.push(Pass::run(robot, &window, group, &share, options.certificate, control));
+    }
+    (control.progress)(Progress { stage: "definitions 5 and 6", done: 0, total: 1 });
+    let (parallel, serial) = match &passes[..] {
+        [pass] if options.modes.is_empty() => {
+            rayon::join(|| parallel_aspects(robot, &pass.paving), || serial_aspects(robot, &pass.paving))
+        }
+        _ => Default::default(),
+    };
+    let depth = passes.iter().map(|pass| pass.paving.depth).max().unwrap_or(0);
+    let run = Run {
+        boxes: passes.iter().map(|pass| pass.boxes).sum(),
+        depth,
+        resolution: window.ranges.iter().map(|r| (r.1 - r.0) / f64::from(1u32 << depth)).collect(),
+        stop: passes.iter().map(|pass| pass.stop).fold(Stop::Exact, Stop::worse),
+        seconds: 0.0,
+    };
+    let mut found = Vec::new();
+    let (mut reports, mut doubts, mut certificate, mut pavings) = (vec![], vec![], None, vec![]);
+    for pass in passes {
+        found.extend(pass.found);
+        reports.extend(pass.modes);
+        doubts.extend(pass.doubts);
+        certificate = pass.certificate;
+        pavings.push(pass.paving);
+    }
     let (classes, labels) = number(found);
     let low = classes.iter().map(|c| c.low).sum();
     let high = classes.iter().map(|c| c.high).sum::<Option<usize>>();
-    (control.progress)(Progress { stage: "definitions 5 and 6", done: 0, total: 1 });
-    let (parallel, serial) = if options.modes.is_empty() {
-        rayon::join(|| parallel_aspects(robot, paving), || serial_aspects(robot, paving))
-    } else {
-        Default::default()
-    };
     Ok(Analysis {
         format_version: FORMAT_VERSION,
         fixed: Held::all(robot, &window),
         measure: Measure::over(robot, &window),
         aspects: Count { low, high, certified: high == Some(low) },
         legs: robot.leg_reports(),
-        modes: modes.iter().enumerate().map(|(m, mode)| mode_report(robot, paving, m, *mode)).collect(),
+        modes: reports,
         classes,
         doubts,
         parallel_rods,
-        certificate: options.certificate.then(|| certificate(&atlas, &counted)),
+        certificate,
         parallel_aspects: parallel,
         serial_aspects: serial,
-        run: Run {
-            boxes: atlas.boxes(),
-            depth: paving.depth,
-            resolution: window.ranges.iter().map(|r| (r.1 - r.0) / f64::from(1u32 << paving.depth)).collect(),
-            stop,
-            seconds: start.elapsed().as_secs_f64(),
-        },
+        run: Run { seconds: start.elapsed().as_secs_f64(), ..run },
         robot: robot.clone(),
         window,
         labels,
-        paving: { atlas.sheets }.swap_remove(0),
+        pavings,
     })
+}
+
+/// What cannot be analysed whatever the slice.
+fn refuse(robot: &Robot, options: &Options) -> Result<(), AnalysisError> {
+    let dof = robot.dof();
+    let held = |k: usize| options.fix.iter().any(|&(held, _)| held == k);
+    let free: Vec<usize> = (0..dof).filter(|&k| !held(k)).collect();
+    if free.len() > MOST_FREE {
+        let hold = |k: usize| {
+            let middle =
+                robot.window[k].filter(|r| !(r.0..=r.1).contains(&0.0)).map_or(0.0, |r| 0.5 * (r.0 + r.1));
+            let value = options.fix.iter().find(|&&(held, _)| held == k).map_or(middle, |&(_, value)| value);
+            format!("{}={value}", robot.platform.coordinates()[k].name)
+        };
+        let all = (0..dof).filter(|&k| held(k) || free[MOST_FREE..].contains(&k));
+        let hold = all.map(hold).collect::<Vec<_>>().join(",");
+        return Err(AnalysisError::Dimension { robot: robot.name.clone(), dof, free: free.len(), hold });
+    }
+    if options.certificate && dof > MOST_FREE {
+        return Err(AnalysisError::Certificate { robot: robot.name.clone(), dof });
+    }
+    Ok(())
+}
+
+/// Most coordinates that can be free.
+const MOST_FREE: usize = 3;
+
+/// What one pass found of its modes.
+struct Pass {
+    found: Vec<Found>,
+    doubts: Vec<Doubt>,
+    modes: Vec<ModeReport>,
+    certificate: Option<Certificate>,
+    paving: Paving,
+    boxes: u64,
+    stop: Stop,
+}
+
+impl Pass {
+    fn run(
+        robot: &Robot,
+        window: &Window,
+        modes: &[WorkingMode],
+        budget: &Budget,
+        keep_proof: bool,
+        control: &Control<'_>,
+    ) -> Self {
+        let Search { atlas, counted, stop } = Search::run(robot, window, modes, budget, control);
+        let paving = &atlas.sheets[0];
+        let found = counted.par_iter().map(|(class, counted)| Found::new(&atlas, *class, counted)).collect();
+        Self {
+            found,
+            doubts: counted.iter().flat_map(|(class, counted)| doubts(&atlas, *class, counted)).collect(),
+            modes: modes.iter().enumerate().map(|(m, mode)| mode_report(robot, paving, m, *mode)).collect(),
+            certificate: keep_proof.then(|| certificate(&atlas, &counted)),
+            boxes: atlas.boxes(),
+            stop,
+            paving: { atlas.sheets }.swap_remove(0),
+        }
+    }
 }
 
 /// The budget, ended early if it names no end and the bounds are not going to meet.

@@ -2,7 +2,7 @@
 
 use super::atlas::{Leaf, seams};
 use crate::paving::{Mark, Node, Paving};
-use crate::robot::{Platform, Robot};
+use crate::robot::Robot;
 
 /// Disjoint sets, by path halving and union by index.
 pub(crate) struct UnionFind(Vec<u32>);
@@ -167,9 +167,9 @@ impl Index {
 /// Pairs of boxes of a set that may touch where the coordinates fold up: at pitch = ±π/2 roll and yaw turn about the same
 /// axis, so boxes there may touch whatever their roll and yaw. Where one of the two is held the other tells all poses apart.
 fn folds(robot: &Robot, paving: &Paving, sight: &impl Fn(&Node) -> Mark) -> Vec<(u32, u32)> {
-    let (roll, pitch, yaw) = (0, 1, 2);
+    let Some([roll, pitch, yaw]) = robot.platform.turns() else { return Vec::new() };
     let varies = |k: usize| paving.axes.contains(&k);
-    if robot.platform != Platform::TurningBody || !varies(roll) || !varies(yaw) {
+    if !varies(roll) || !varies(yaw) {
         return Vec::new();
     }
     let half_turn = std::f64::consts::FRAC_PI_2;

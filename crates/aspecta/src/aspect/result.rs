@@ -5,7 +5,7 @@ use super::measure::{Held, Measure};
 use crate::certificate::Certificate;
 use crate::kinematics::parallel_rods::ParallelRods;
 use crate::kinematics::{WorkingMode, for_platform};
-use crate::paving::{BoxOf, Paving, Stop};
+use crate::paving::{BoxOf, ClassSet, MODES, Paving, Stop};
 use crate::robot::{Robot, Window};
 use serde::{Deserialize, Serialize};
 
@@ -49,10 +49,11 @@ pub struct Analysis {
     /// The proof, if it was asked for ([`super::Options::certificate`]).
     #[serde(skip)]
     pub certificate: Option<Certificate>,
-    /// The paving behind it, in pose coordinates.
+    /// The pavings behind it, in pose coordinates, each of [`crate::paving::MODES`] modes (the last of the rest):
+    /// [`Analysis::paving_of`].
     #[serde(skip)]
-    pub paving: Paving,
-    /// Per class, the boxes in which it ends and is not outside, in the order of node indices, with the
+    pub pavings: Vec<Paving>,
+    /// Per class, the boxes of its paving in which it ends and is not outside, in the order of node indices, with the
     /// [`Aspect::id`] they lie in (0: undecided).
     #[serde(skip)]
     pub(crate) labels: Vec<Vec<(u32, u32)>>,
@@ -72,11 +73,17 @@ pub enum Place {
 impl Analysis {
     /// The cells of class `class` (index into [`Analysis::classes`]) that are not outside it.
     pub fn cells(&self, class: usize) -> Vec<Cell> {
+        let (paving, _) = self.paving_of(class);
         let cell = |&(node, id): &(u32, u32)| {
-            let (lo, hi): BoxOf = self.paving.bounds(node);
+            let (lo, hi): BoxOf = paving.bounds(node);
             Cell { lo, hi, aspect: (id > 0).then_some(id as usize) }
         };
         self.labels[class].iter().map(cell).collect()
+    }
+
+    /// The paving that decides class `class` (index into [`Analysis::classes`]), and the class's bit in it.
+    pub fn paving_of(&self, class: usize) -> (&Paving, ClassSet) {
+        (&self.pavings[class / (2 * MODES)], 1 << (class % (2 * MODES)))
     }
 
     /// Where `pose` is, as class `class` (index into [`Analysis::classes`]) sees it; angles count modulo 2π. A pose on the
@@ -85,7 +92,7 @@ impl Analysis {
         let pose = self.window.turned(pose);
         let labels = &self.labels[class];
         let label = |node: u32| labels.binary_search_by_key(&node, |l| l.0).ok().map(|k| labels[k].1);
-        let found = self.paving.descend_to(&pose, &mut |node| label(node).is_some());
+        let found = self.paving_of(class).0.descend_to(&pose, &mut |node| label(node).is_some());
         match found.and_then(|(node, _)| label(node)) {
             Some(0) => Place::Undecided,
             Some(id) => Place::Inside(id as usize),
@@ -147,8 +154,9 @@ impl Analysis {
     /// proved any more. The straight segments between the poses visited are proved to stay in the class.
     pub(crate) fn climb(&self, class: usize, pose: &[f64], reached: &mut impl FnMut(&[f64]) -> bool) {
         let AspectClass { mode, det_a, .. } = self.classes[class];
-        let seen = Class { mode, sign: det_a.factor(), bit: 1 << class };
-        for_platform!(self.robot.platform, ascend(&self.robot, &self.paving, seen, pose, reached));
+        let (paving, bit) = self.paving_of(class);
+        let seen = Class { mode, sign: det_a.factor(), bit };
+        for_platform!(self.robot.platform, ascend(&self.robot, paving, seen, pose, reached));
     }
 }
 

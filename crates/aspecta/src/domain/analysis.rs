@@ -103,8 +103,8 @@ fn uniqueness(
 
 /// Inner measure of the workspace: that of the union of all modes.
 fn workspace(analysis: &Analysis) -> Option<f64> {
+    let [paving] = &analysis.pavings[..] else { return None };
     let mut sum = 0.0;
-    let paving = &analysis.paving;
     paving.boxes_of(&|node| node.of_classes(!0), &mut |node| {
         if paving.nodes[node as usize].inside != 0 {
             sum += paving.measure(paving.depth_of(node));

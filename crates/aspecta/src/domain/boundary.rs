@@ -143,7 +143,7 @@ impl Boundary {
     /// # Errors
     /// [`BoundaryError`] if there is no such aspect, the slice is a line, or the number of cells is out of range.
     pub fn new(analysis: &Analysis, aspect: usize, cells: usize) -> Result<Self, BoundaryError> {
-        let dimension = analysis.paving.axes.len();
+        let dimension = analysis.window.axes().len();
         if dimension < 2 {
             return Err(BoundaryError::Line(dimension));
         }

@@ -177,6 +177,8 @@ pub fn folds(robot: &Robot, window: &Window) -> Vec<Fold> {
     let translations = match robot.platform {
         Platform::PlanePoint | Platform::PlaneBody => 2,
         Platform::TranslatingBody => 3,
+        // The platform keeps its orientation, as a translating one does.
+        Platform::FreeBody if window.held().map(|(k, _)| k).eq(3..6) => 3,
         Platform::TurningBody | Platform::FreeBody => return Vec::new(),
     };
     if (0..translations).any(|k| window.ranges[k].0 == window.ranges[k].1 || window.cut[k] != (false, false))
@@ -186,7 +188,8 @@ pub fn folds(robot: &Robot, window: &Window) -> Vec<Fold> {
     let mut size = 0.3;
     while size > LEAST {
         let found: Vec<Place> = (0..robot.dof()).flat_map(|leg| Place::of_leg(robot, leg, size)).collect();
-        let apart = |(i, a): (usize, &Place)| found[i + 1..].iter().all(|b| a.is_apart_from(b, robot));
+        let apart =
+            |(i, a): (usize, &Place)| found[i + 1..].iter().all(|b| a.is_apart_from(b, robot, window));
         if found.iter().enumerate().all(apart) {
             return found.into_iter().map(|place| place.fold).collect();
         }
@@ -237,12 +240,19 @@ impl Place {
     }
 
     /// Whether no pose is in both charts, by the triangle inequality; the twentieth to spare is far beyond rounding.
-    fn is_apart_from(&self, other: &Self, robot: &Robot) -> bool {
+    fn is_apart_from(&self, other: &Self, robot: &Robot, window: &Window) -> bool {
         let centre = |place: &Self| {
             let leg = &robot.legs[place.fold.leg];
             std::array::from_fn::<f64, 3, _>(|k| leg.anchor[k].mid() + place.height * leg.frame[2][k].mid())
         };
-        let arm = |place: &Self| robot.legs[place.fold.leg].attachment.map(|c| c.mid());
+        let still: Vec<f64> = window.ranges.iter().map(|r| r.0).collect();
+        let arm = |place: &Self| -> [f64; 3] {
+            let leg = &robot.legs[place.fold.leg];
+            match robot.platform {
+                Platform::FreeBody => Placement::<f64, 3>::at(robot.platform, &still).arm(leg),
+                _ => leg.attachment.map(|c| c.mid()),
+            }
+        };
         let between = |a: [f64; 3], b: [f64; 3]| std::array::from_fn::<f64, 3, _>(|k| a[k] - b[k]);
         let norm = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
         let (base, body) = (between(centre(self), centre(other)), between(arm(self), arm(other)));

@@ -1,12 +1,14 @@
 //! Inverse and direct geometric models, Jacobians and singularities (section 2 of the paper).
 
 pub mod chart;
+pub(crate) mod condition;
 pub mod demand;
 pub mod direct;
 mod inverse;
 mod jacobian;
 pub mod leg;
 pub mod limits;
+mod minors;
 pub mod modal;
 mod out_of_reach;
 pub mod parallel_rods;

@@ -6,10 +6,12 @@
 
 use super::WorkingMode;
 use super::chart::Folded;
+use super::condition::Conditioner;
 use super::leg::{Closure, Drive, drive, eliminate};
 use super::limits::LegAt;
+use super::minors::Minors;
 use super::placement::{Placement, determinant, minor, out_of_frame, wrench};
-use crate::num::{Scalar, each};
+use crate::num::{Pack, Scalar, Slope, each};
 use crate::robot::{Leg, Robot};
 
 /// Every leg at one pose (or box of poses), with q eliminated; h not yet chosen.
@@ -108,14 +110,23 @@ impl<T: Scalar, const N: usize> ModalRows<T, N> {
         if sign > 0 { each!(|k| a[k] + b[k]) } else { each!(|k| a[k] - b[k]) }
     }
 
-    /// [`ModalRows::det`] for each mode wanted, with its index; modes that differ in the first leg only share
-    /// their minors.
+    /// [`ModalRows::det`] for each mode wanted, with its index; modes that differ in few legs share minors.
     pub fn dets(&self, modes: &[WorkingMode], wanted: u8, mut visit: impl FnMut(usize, T)) {
         let is_wanted = |m: usize| wanted >> m & 1 == 1;
-        if N != 3 {
-            (0..modes.len()).filter(|&m| is_wanted(m)).for_each(|m| visit(m, self.det(modes[m])));
-            return;
+        match N {
+            2 => (0..modes.len()).filter(|&m| is_wanted(m)).for_each(|m| visit(m, self.det(modes[m]))),
+            3 => self.dets_of_three(modes, is_wanted, visit),
+            _ => self.dets_below(modes, wanted, &Minors::none(), 0, &mut visit),
         }
+    }
+
+    /// Modes that differ in the first leg only share their minors.
+    fn dets_of_three(
+        &self,
+        modes: &[WorkingMode],
+        is_wanted: impl Fn(usize) -> bool,
+        mut visit: impl FnMut(usize, T),
+    ) {
         for (s, t) in [(1, 1), (1, -1), (-1, 1), (-1, -1)] {
             let of_pair = |m: &usize| is_wanted(*m) && modes[*m].sign(1) == s && modes[*m].sign(2) == t;
             if !(0..modes.len()).any(|m| of_pair(&m)) {
@@ -130,6 +141,29 @@ impl<T: Scalar, const N: usize> ModalRows<T, N> {
         }
     }
 
+    /// The same, leg by leg from leg j on, with the minors of the rows before: modes share those of the first legs, in which they
+    /// agree if they follow one another in Gray's order.
+    fn dets_below(
+        &self,
+        modes: &[WorkingMode],
+        wanted: u8,
+        above: &Minors<T, N>,
+        j: usize,
+        visit: &mut impl FnMut(usize, T),
+    ) {
+        if j == N {
+            (0..modes.len()).filter(|m| wanted >> m & 1 == 1).for_each(|m| visit(m, above.determinant()));
+            return;
+        }
+        for sign in [1, -1] {
+            let alike = (0..modes.len()).filter(|&m| wanted >> m & 1 == 1 && modes[m].sign(j) == sign);
+            let alike = alike.fold(0, |set: u8, m| set | 1 << m);
+            if alike != 0 {
+                self.dets_below(modes, alike, &above.with(&self.row(j, sign)), j + 1, visit);
+            }
+        }
+    }
+
     /// det A in `mode`, times the product of the weights: the sign is that of det A.
     pub fn det(&self, mode: WorkingMode) -> T {
         let mut rows = [[T::zero(); N]; N];
@@ -137,6 +171,16 @@ impl<T: Scalar, const N: usize> ModalRows<T, N> {
             rows[j] = self.row(j, mode.sign(j));
         }
         determinant(&rows)
+    }
+}
+
+impl<const N: usize, const M: usize> ModalRows<Slope<Pack, M>, N> {
+    /// The range of [`ModalRows::det`] over eight boxes, times some positive number: more work, but mostly much narrower where N > 3
+    /// ([`super::condition`]).
+    pub fn conditioned_det(&self, mode: WorkingMode) -> Pack {
+        let rows: [[_; N]; N] = std::array::from_fn(|j| self.row(j, mode.sign(j)));
+        let by = Conditioner::new(&rows);
+        determinant(&rows.map(|row| by.row(&row))).tightened().range * by.det
     }
 }
 

@@ -1,7 +1,8 @@
 //! Where three or more rods of a translating platform can all be parallel: a surface on which det A vanishes to higher order.
 
+use super::placement::Placement;
 use crate::num::without_turns;
-use crate::robot::{Actuator, Leg, Limit, Platform, Robot};
+use crate::robot::{Actuator, Leg, Limit, Platform, Robot, Window};
 use nalgebra::Vector3;
 use serde::Serialize;
 
@@ -11,6 +12,9 @@ use serde::Serialize;
 /// of these meet in a point P, then with the joints standing there X may be anywhere on the sphere round P with radius M: the
 /// m rods are parallel, A has rank n − m + 1, and det A vanishes to order m − 1, on a surface, in each working mode on a part of it. For m ≥ 3 its sign need not
 /// change there, and 0 is no regular value of it (docs/theory.md, section 5): no paving decides the boxes on the sphere.
+///
+/// A free body that keeps its orientation reaches X in the same way, its arms turned. Its wrenches (u, r_i × u) along m parallel rods have rank 3
+/// at most, so det A vanishes to order m − 3: for m ≥ 5 to the second order and more.
 ///
 /// Every Delta whose legs are placed symmetrically round an axis has two such points on it, if its cranks are long enough and not
 /// kept from pointing there by their limits.
@@ -24,18 +28,27 @@ pub struct ParallelRods {
     pub radius: f64,
     /// Where the legs' joints stand (rad or length unit).
     pub q: Vec<f64>,
+    /// The order to which det A vanishes there, at least.
+    pub order: usize,
 }
 
 /// How far from each other, relative to the rod, curves may pass and still count as meeting.
 const TOLERANCE: f64 = 1e-9;
 
-/// All sets of three or more legs of a robot that can have parallel rods, within the limits of their actuators. Numerical: curves
-/// closer than 10⁻⁹ rods are said to meet. Empty if the platform does not translate in space.
-pub fn parallel_rods(robot: &Robot) -> Vec<ParallelRods> {
-    if robot.platform != Platform::TranslatingBody {
-        return Vec::new();
-    }
-    let tracks: Vec<Track<'_>> = robot.legs.iter().filter_map(Track::of).collect();
+/// All sets of legs of a robot that can have parallel rods within the limits of their actuators, three or more of a translating
+/// platform, five or more of a free one in a slice of fixed orientation. Numerical: curves closer than 10⁻⁹ rods are said to meet.
+/// Empty for other platforms and slices.
+pub fn parallel_rods(robot: &Robot, window: &Window) -> Vec<ParallelRods> {
+    let still: Vec<f64> = window.ranges.iter().map(|r| r.0).collect();
+    let (placement, least) = match robot.platform {
+        Platform::TranslatingBody => (Placement::<f64, 3>::at(robot.platform, &still), 3),
+        Platform::FreeBody if window.held().map(|(k, _)| k).eq(3..6) => {
+            (Placement::at(robot.platform, &still), 5)
+        }
+        _ => return Vec::new(),
+    };
+    let tracks: Vec<Track<'_>> =
+        robot.legs.iter().filter_map(|leg| Track::of(leg, placement.arm(leg))).collect();
     let mut found: Vec<ParallelRods> = Vec::new();
     for (i, a) in tracks.iter().enumerate() {
         for point in tracks[i + 1..].iter().flat_map(|b| a.meet(b)) {
@@ -47,8 +60,9 @@ pub fn parallel_rods(robot: &Robot) -> Vec<ParallelRods> {
             let near = |other: &ParallelRods| {
                 (Vector3::from(other.centre) - point).norm() <= 1e3 * TOLERANCE * a.rod
             };
-            if legs.len() >= 3 && !found.iter().any(near) {
-                found.push(ParallelRods { legs, centre: point.into(), radius: a.rod, q });
+            if legs.len() >= least && !found.iter().any(near) {
+                let order = legs.len() + 2 - least;
+                found.push(ParallelRods { legs, centre: point.into(), radius: a.rod, q, order });
             }
         }
     }
@@ -66,14 +80,15 @@ struct Track<'a> {
 }
 
 impl<'a> Track<'a> {
-    fn of(leg: &'a Leg) -> Option<Self> {
+    /// `arm`: from the platform's origin to C, in the base.
+    fn of(leg: &'a Leg, arm: [f64; 3]) -> Option<Self> {
         let (crank, rod) = match leg.actuator {
             Actuator::Revolute { crank, rod } => (Some(crank.mid()), rod.mid()),
             Actuator::Prismatic { rod } => (None, rod.mid()),
             Actuator::Strut | Actuator::Spherical { .. } => return None,
         };
         let vector = |v: &[crate::num::Interval; 3]| Vector3::from(v.map(|x| x.mid()));
-        let centre = vector(&leg.anchor) - vector(&leg.attachment);
+        let centre = vector(&leg.anchor) - Vector3::from(arm);
         Some(Self { leg, centre, frame: leg.frame.each_ref().map(vector), crank, rod })
     }
 
@@ -134,6 +149,10 @@ mod tests {
     use super::*;
     use crate::robot::catalogue::find;
 
+    fn rods_of(robot: &Robot) -> Vec<ParallelRods> {
+        parallel_rods(robot, &robot.workspace_window().unwrap())
+    }
+
     /// The least |det A| over the inverse solutions at a pose.
     fn least_det_a(robot: &Robot, pose: &[f64]) -> f64 {
         robot.inverse(pose).unwrap().iter().map(|s| s.det_a.abs()).fold(f64::INFINITY, f64::min)
@@ -142,7 +161,7 @@ mod tests {
     #[test]
     fn a_symmetric_delta_has_two_spheres_on_which_det_a_vanishes_to_second_order() {
         let robot = find("delta").unwrap();
-        let found = parallel_rods(&robot);
+        let found = rods_of(&robot);
         assert_eq!(found.len(), 2);
         for rods in &found {
             assert_eq!(rods.legs, [1, 2, 3]);
@@ -167,15 +186,15 @@ mod tests {
     fn limits_lines_and_unequal_rods_are_heeded() {
         let mut robot = find("delta").unwrap();
         robot.legs[1].limits = find("irb-360").unwrap().legs[1].limits.clone();
-        assert_eq!(parallel_rods(&robot), [], "leg 2 is kept from pointing there");
+        assert_eq!(rods_of(&robot), [], "leg 2 is kept from pointing there");
         // The rails meet in the origin, which their limits keep the sliders from.
         let mut orthoglide = find("orthoglide").unwrap();
-        assert_eq!(parallel_rods(&orthoglide), []);
+        assert_eq!(rods_of(&orthoglide), []);
         orthoglide.legs.iter_mut().for_each(|leg| leg.limits.clear());
-        let found = parallel_rods(&orthoglide);
+        let found = rods_of(&orthoglide);
         assert_eq!(found.len(), 1, "{found:?}");
         orthoglide.legs[2].actuator = Actuator::Prismatic { rod: crate::num::Interval::point(300.0) };
-        assert_eq!(parallel_rods(&orthoglide), []);
-        assert_eq!(parallel_rods(&find("linear-delta").unwrap()), [], "parallel rails never meet");
+        assert_eq!(rods_of(&orthoglide), []);
+        assert_eq!(rods_of(&find("linear-delta").unwrap()), [], "parallel rails never meet");
     }
 }

@@ -1,5 +1,6 @@
 //! Where the platform puts the attachment points, and how a force at one acts on the platform.
 
+use super::minors;
 use crate::num::{Interval, Jet, Scalar, dot, dot_constant, each};
 use crate::robot::{Leg, Platform};
 
@@ -230,25 +231,22 @@ pub fn determinant<T: Scalar, const N: usize>(m: &[[T; N]; N]) -> T {
             let (b, c) = (&m[1], &m[2]);
             m[0][0] * minor(b, c, 1, 2) + m[0][1] * minor(b, c, 2, 0) + m[0][2] * minor(b, c, 0, 1)
         }
-        _ => expand(m),
+        _ => minors::determinant(m),
     }
 }
 
 /// The cofactors: entry (j, i) is the derivative of the determinant with respect to `m[j][i]`.
 pub fn cofactors<T: Scalar, const N: usize>(m: &[[T; N]; N]) -> [[T; N]; N] {
+    if N > 3 {
+        return minors::cofactors(m);
+    }
     let mut all = [[T::zero(); N]; N];
     for j in 0..N {
         for i in 0..N {
             all[j][i] = match N {
                 2 if i == j => m[1 - j][1 - i],
                 2 => -m[1 - j][1 - i],
-                3 => minor(&m[(j + 1) % N], &m[(j + 2) % N], (i + 1) % N, (i + 2) % N),
-                _ => {
-                    let mut replaced = *m;
-                    replaced[j] = [T::zero(); N];
-                    replaced[j][i] = T::constant(Interval::point(1.0));
-                    expand(&replaced)
-                }
+                _ => minor(&m[(j + 1) % N], &m[(j + 2) % N], (i + 1) % N, (i + 2) % N),
             };
         }
     }
@@ -258,21 +256,4 @@ pub fn cofactors<T: Scalar, const N: usize>(m: &[[T; N]; N]) -> [[T; N]; N] {
 /// aᵢ bⱼ − aⱼ bᵢ.
 pub fn minor<T: Scalar, const N: usize>(a: &[T; N], b: &[T; N], i: usize, j: usize) -> T {
     a[i] * b[j] - a[j] * b[i]
-}
-
-/// The same for N up to 6: minors of the last rows, by sets of columns.
-fn expand<T: Scalar, const N: usize>(m: &[[T; N]; N]) -> T {
-    let mut minors = [T::constant(Interval::point(1.0)); 64];
-    for set in 1usize..1 << N {
-        let row = N - set.count_ones() as usize;
-        let mut sum = T::zero();
-        let mut plus = true;
-        for k in (0..N).filter(|k| set >> k & 1 == 1) {
-            let term = m[row][k] * minors[set & !(1 << k)];
-            sum = if plus { sum + term } else { sum - term };
-            plus = !plus;
-        }
-        minors[set] = sum;
-    }
-    minors[(1 << N) - 1]
 }

@@ -127,6 +127,16 @@ impl<T: Enclosure, const N: usize> Slope<T, N> {
         Self { range, centre, slope }
     }
 
+    /// The product with a number that does not depend on the point of the box.
+    #[inline(always)]
+    pub fn times(self, c: T) -> Self {
+        let f = &self;
+        let c = &c;
+        kernel!(Enclosure, (f: &Slope<T, N>, c: &T) -> Slope<T, N> {
+            Slope { range: f.range * *c, centre: f.centre * *c, slope: each!(|k| f.slope[k] * *c) }
+        })
+    }
+
     /// A function of `self`, with its range, its value at the centre, and an enclosure of
     /// (φ(f(x)) − φ(f(c))) / (f(x) − f(c)).
     #[inline(never)]

@@ -38,6 +38,16 @@ impl Budget {
         self.depth.into_iter().chain(finest).min().map(|depth| depth.clamp(1, MAX_DEPTH))
     }
 
+    /// An equal share of what is left of it for one of several passes still to come, when `boxes` and `seconds` are spent.
+    pub(crate) fn share(&self, passes: usize, (boxes, seconds): (u64, f64)) -> Self {
+        let most = self.boxes.unwrap_or(MAX_BOXES).min(MAX_BOXES);
+        Self {
+            boxes: Some(most.saturating_sub(boxes) / passes as u64),
+            seconds: self.seconds.map(|all| (all - seconds).max(0.0) / passes as f64),
+            ..*self
+        }
+    }
+
     /// The budget of the even paving that a search starts with: depth 16 on a line, 9 in the plane and 5 in space, or what is
     /// asked for if that is less.
     pub fn start(&self, window: &Window) -> Self {
@@ -92,4 +102,11 @@ pub enum Stop {
     Time,
     /// Cancelled by the user.
     Cancelled,
+}
+
+impl Stop {
+    /// Of two, the one that left more undone.
+    pub(crate) fn worse(self, other: Self) -> Self {
+        if (other as u8) > self as u8 { other } else { self }
+    }
 }

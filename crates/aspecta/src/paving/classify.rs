@@ -153,7 +153,16 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
         let rows = ModalRows::new(self.robot, legs, &each!(|j| heights[j][0]));
         rows.dets(self.modes, wanted, |m, det| {
             let det = det.tightened().range;
-            let (positive, negative) = (det.positive(), det.negative());
+            let (mut positive, mut negative) = (det.positive(), det.negative());
+            let open = |l: usize| boxes[l].undecided >> (2 * m) & 3 != 0 && !(positive[l] || negative[l]);
+            if N > 3 && (0..LANES).any(open) {
+                let det = rows.conditioned_det(self.modes[m]);
+                let (also_positive, also_negative) = (det.positive(), det.negative());
+                for l in 0..LANES {
+                    positive[l] |= also_positive[l];
+                    negative[l] |= also_negative[l];
+                }
+            }
             for l in 0..LANES {
                 let (kept, broken) = limits.of(self.modes[m], l);
                 boxes[l].settle(m, closes[l] && kept, broken, positive[l], negative[l]);

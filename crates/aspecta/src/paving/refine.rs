@@ -2,7 +2,7 @@
 
 use super::budget::{Budget, Control, MAX_BOXES, PAVING_SHARE, Progress, Stop};
 use super::classify::Classifier;
-use super::tree::{ClassSet, Node, Paving};
+use super::tree::{ClassSet, MODES, Node, Paving};
 use crate::kinematics::WorkingMode;
 use crate::kinematics::chart::{Chart, Fold};
 use crate::num::LANES;
@@ -25,6 +25,9 @@ macro_rules! for_paving {
             (3, 3, 1) => $f::<3, 3, 1>($($arg),*),
             (3, 3, 2) => $f::<3, 3, 2>($($arg),*),
             (3, 3, 3) => $f::<3, 3, 3>($($arg),*),
+            (3, 6, 1) => $f::<3, 6, 1>($($arg),*),
+            (3, 6, 2) => $f::<3, 6, 2>($($arg),*),
+            (3, 6, 3) => $f::<3, 6, 3>($($arg),*),
             (_, n, m) => panic!("a paving of {m} axes of a robot with {n} degrees of freedom"),
         }
     };
@@ -32,13 +35,13 @@ macro_rules! for_paving {
 pub(crate) use for_paving;
 
 impl Paving {
-    /// Paves `window`, in pose coordinates, for up to 8 working modes of a robot, up to 3 of whose coordinates vary: every box
+    /// Paves `window`, in pose coordinates, for up to [`MODES`] working modes of a robot, up to 3 of whose coordinates vary: every box
     /// in which something is undecided is subdivided, to the depth of the budget.
     ///
     /// Deterministic, whatever the number of threads, unless a time budget or a cancellation ends it.
     ///
     /// # Panics
-    /// If there are more than 8 modes, or the window does not have 1 to 3 axes, or the robot more than 3 degrees of freedom.
+    /// If there are more modes than that, or the window does not have 1 to 3 axes.
     pub fn new(
         robot: &Robot,
         window: &Window,
@@ -81,7 +84,7 @@ impl Paving {
 
     /// A paving of one box in which nothing is known.
     pub fn blank(chart: Chart, window: Window, modes: &[WorkingMode]) -> Self {
-        assert!(modes.len() <= 8, "a pass takes up to 8 working modes");
+        assert!(modes.len() <= MODES, "a pass takes up to {MODES} working modes");
         let all = ((1u32 << (2 * modes.len())) - 1) as ClassSet;
         Self {
             axes: window.axes(),

@@ -8,6 +8,9 @@ use crate::robot::Window;
 /// A set of classes, one bit each: bit 2m for mode m and det A > 0, bit 2m + 1 for mode m and det A < 0.
 pub type ClassSet = u16;
 
+/// Most modes of one paving.
+pub const MODES: usize = 8;
+
 /// A box: cell `corner` of the grid window / 2^depth.
 ///
 /// A class is *inside* (the closed box lies in S_{s,σ}, proved), *undecided*, or neither: outside

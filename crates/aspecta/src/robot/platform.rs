@@ -90,6 +90,15 @@ impl Platform {
         matches!(self, Self::TurningBody | Self::FreeBody)
     }
 
+    /// The indices of roll, pitch and yaw, for those platforms.
+    pub const fn turns(self) -> Option<[usize; 3]> {
+        match self {
+            Self::TurningBody => Some([0, 1, 2]),
+            Self::FreeBody => Some([3, 4, 5]),
+            _ => None,
+        }
+    }
+
     /// The name used in robot files.
     pub const fn name(self) -> &'static str {
         match self {

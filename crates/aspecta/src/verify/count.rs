@@ -8,7 +8,6 @@ use crate::certificate::{Certificate, Claim, Leaf};
 use crate::kinematics::chart::Fold;
 use crate::num::Interval;
 use crate::paving::{ClassSet, Control, Progress};
-use crate::robot::Platform;
 use rayon::prelude::*;
 use std::f64::consts::FRAC_PI_2;
 
@@ -85,9 +84,12 @@ impl<'a> Leaves<'a> {
             }
         });
         let varies = |k: usize| certificate.window.ranges[k].0 < certificate.window.ranges[k].1;
-        if certificate.robot.platform == Platform::TurningBody && varies(0) && varies(2) {
+        if let Some([roll, pitch, yaw]) = certificate.robot.platform.turns()
+            && varies(roll)
+            && varies(yaw)
+        {
             for leaf in 0..sheets[0].cells.leaves.len() {
-                let pitch = sheets[0].cells.of(leaf)[1];
+                let pitch = sheets[0].cells.of(leaf)[pitch];
                 for (pole, there) in [pitch.lo <= -FRAC_PI_2, pitch.hi >= FRAC_PI_2].into_iter().enumerate() {
                     leaves.poles[pole].extend(there.then_some(leaf));
                 }

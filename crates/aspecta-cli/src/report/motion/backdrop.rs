@@ -152,7 +152,7 @@ impl<'a> Map<'a> {
             Label::Aspect(id) => Some(palette::shade(id, 1, 2)),
         });
         draw_lines(svg, &self.chart, lines, [false; 2]);
-        let at = section.at.map_or(String::new(), |at| format!(", {}", place(&self.analysis.robot, at)));
+        let at = section.at.map_or(String::new(), |at| format!(", {}", place(&self.analysis.robot, 2, at)));
         let title = format!("W ({}), {}{at}", signs(&class.mode.to_string()), sign_text(class.det_a));
         let Chart { left, top, width, height, .. } = self.chart;
         svg.text([left + width / 2.0, top - 9.0], Anchor::Middle, 12.0, "font-weight:600", &title);

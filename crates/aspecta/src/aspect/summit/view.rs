@@ -5,6 +5,7 @@ use super::climb::Growth;
 use super::frame::Frame;
 use crate::aspect::scale::Scale;
 use crate::kinematics::WorkingMode;
+use crate::kinematics::condition::Conditioner;
 use crate::kinematics::limits::{margin, unit};
 use crate::kinematics::modal::LegClosure;
 use crate::kinematics::placement::{Placement, cofactors, out_of_frame, wrench};
@@ -247,8 +248,12 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
 
     pub(super) fn determinant(&self, part: &Part<N, M>, mode: WorkingMode) -> Determinant<N, M> {
         let posture = |j: usize| usize::from(mode.sign(j) < 0);
-        let rows: [[Slope<Pack, M>; N]; N] =
+        let mut rows: [[Slope<Pack, M>; N]; N] =
             std::array::from_fn(|j| each!(|i| part.rows[j][posture(j)][i].value));
+        // det A = det(A Z) / det Z, for the derivatives too.
+        let by = (N > 3).then(|| Conditioner::new(&rows));
+        let conditioned = |row: [Slope<Pack, M>; N]| by.as_ref().map_or(row, |by| by.row(&row));
+        rows = rows.map(conditioned);
         let mut minors = cofactors(&rows);
         for minor in minors.as_flattened_mut() {
             *minor = minor.tightened();
@@ -259,12 +264,14 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
         }
         let partial = |j: usize, k: usize| {
             let row = &part.rows[j][posture(j)];
-            let mut sum = minors[j][0] * row[0].gradient[k];
+            let row = conditioned(each!(|i| row[i].gradient[k]));
+            let mut sum = minors[j][0] * row[0];
             for i in 1..N {
-                sum = sum + minors[j][i] * row[i].gradient[k];
+                sum = sum + minors[j][i] * row[i];
             }
             sum
         };
+        let range = |f: Slope<Pack, M>| by.as_ref().map_or(range(f), |by| range(f) / by.det);
         let gradient: [Pack; M] = each!(|a| {
             let mut sum = partial(0, a);
             for j in 1..N {
@@ -273,7 +280,8 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
             range(sum)
         });
         // The mean-value theorem, where the gradient is the whole of the derivative.
-        let around = (0..M).fold(det.centre, |sum, a| sum + gradient[a].symmetric());
+        let middle = by.as_ref().map_or(det.centre, |by| det.centre / by.det);
+        let around = (0..M).fold(middle, |sum, a| sum + gradient[a].symmetric());
         let whole: Mask = std::array::from_fn(|l| !(0..N).any(|j| part.singular[j][l]));
         let value = range(det);
         Determinant {

@@ -54,7 +54,7 @@ pub type Cut = [Edge; 3];
 impl Lattice {
     /// A grid of `cells` per axis that holds the aspect, all nodes outside.
     pub fn new(analysis: &Analysis, aspect: &Aspect, cells: usize) -> Self {
-        let axes = analysis.paving.axes.clone();
+        let axes = analysis.window.axes();
         let (mut lo, mut spacing) = ([0.0; 3], [0.0; 3]);
         let (mut nodes, mut wraps, mut turns) = ([1; 3], [false; 3], [false; 3]);
         for (a, &k) in axes.iter().enumerate() {

@@ -158,7 +158,7 @@ impl<'a> Planner<'a> {
             return Ok(straight.to_vec());
         }
         let analysis = self.analysis;
-        let deepest = analysis.paving.depth;
+        let deepest = analysis.paving_of(class).0.depth;
         for depth in coarsest(analysis.robot.dof()).min(deepest)..=deepest {
             let roadmap = self.roadmap(class, depth, cost);
             if let Some(path) = roadmap.path(proof, cost, ends) {

@@ -5,7 +5,7 @@ use super::cost::Cost;
 use crate::aspect::Analysis;
 use crate::kinematics::demand::Margins;
 use crate::num::padded;
-use crate::paving::{Mark, Node};
+use crate::paving::{ClassSet, Mark, Node};
 use rayon::prelude::*;
 use std::cmp::Ordering;
 use std::collections::{BinaryHeap, HashMap, HashSet};
@@ -48,8 +48,8 @@ struct Bridge {
 impl Roadmap {
     /// The boxes of class `class` (index into [`Analysis::classes`]) that lie in it, not deeper than `depth`.
     pub fn new(analysis: &Analysis, class: usize, depth: u32, cost: &Cost<'_>) -> Self {
-        let paving = &analysis.paving;
-        let sight = sight(class, depth);
+        let (paving, bit) = analysis.paving_of(class);
+        let sight = sight(bit, depth);
         let mut nodes = Vec::new();
         paving.boxes_of(&sight, &mut |node| nodes.push(node));
         nodes.sort_unstable();
@@ -155,7 +155,8 @@ impl Roadmap {
 
     /// The spot whose box holds a pose.
     pub fn holding(&self, analysis: &Analysis, pose: &[f64]) -> Option<u32> {
-        let (node, _) = analysis.paving.find(&sight(self.class, self.depth), pose)?;
+        let (paving, bit) = analysis.paving_of(self.class);
+        let (node, _) = paving.find(&sight(bit, self.depth), pose)?;
         self.nodes.binary_search(&node).ok().map(|spot| spot as u32)
     }
 
@@ -253,8 +254,8 @@ impl PartialEq for Open {
 impl Eq for Open {}
 
 /// The boxes inside a class, not deeper than `depth`.
-fn sight(class: usize, depth: u32) -> impl Fn(&Node) -> Mark {
-    move |node| match node.of_classes(1 << class) {
+fn sight(class: ClassSet, depth: u32) -> impl Fn(&Node) -> Mark {
+    move |node| match node.of_classes(class) {
         Mark::Open if node.first_child == 0 || u32::from(node.depth) >= depth => Mark::Outside,
         mark => mark,
     }
