@@ -15,12 +15,14 @@ mod ball;
 mod interval;
 mod jet;
 mod pack;
+mod random;
 mod slope;
 
 pub use ball::Ball;
 pub use interval::Interval;
 pub use jet::Jet;
 pub use pack::{LANES, Mask, Pack};
+pub(crate) use random::Random;
 pub use slope::{Enclosure, Slope};
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
