@@ -41,6 +41,12 @@ impl Body {
         Self { origin: self.origin.lerp(&other.origin, t), turn }
     }
 
+    /// Moved by three lengths and turned by a rotation vector of three lengths over `length`.
+    pub fn moved(&self, [x, y, z, a, b, c]: Pose, length: f64) -> Self {
+        let turn = UnitQuaternion::from_scaled_axis(Vector3::new(a, b, c) / length);
+        Self { origin: self.origin + Vector3::new(x, y, z), turn: turn * self.turn }
+    }
+
     /// A rotation drawn evenly from all, by three shares in [0, 1) (Shoemake 1992).
     pub fn even_turn([a, b, c]: [f64; 3]) -> UnitQuaternion<f64> {
         let (low, high) = ((1.0 - a).sqrt(), a.sqrt());

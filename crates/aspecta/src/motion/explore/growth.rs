@@ -63,7 +63,8 @@ impl<'a> Growth<'a> {
             if control.is_cancelled() {
                 return End::Cancelled;
             }
-            self.round();
+            // What the last draws have left apart is given time to be joined.
+            self.round(4 * self.samples < 3 * effort.samples);
             let (done, total) = (self.samples as u64, effort.samples as u64);
             (control.progress)(Progress { stage: "exploring", done, total });
         }
@@ -80,7 +81,8 @@ impl<'a> Growth<'a> {
         open
     }
 
-    fn round(&mut self) {
+    /// All tasks once; `draws` says whether some of them draw poses although there are components to be joined.
+    fn round(&mut self, draws: bool) {
         let open = self.open();
         let first = self.rounds * TASKS;
         self.rounds += 1;
@@ -88,8 +90,7 @@ impl<'a> Growth<'a> {
             .into_par_iter()
             .map(|task| {
                 let random = &mut Random::of(&[task]);
-                // While there is little to grow from, all tasks draw.
-                let grows = task % 2 == 1 && open.len() > 1;
+                let grows = open.len() > 1 && (task % 2 == 1 || !draws);
                 if grows { self.branch(&open, random) } else { self.sample(random) }
             })
             .collect();
@@ -109,7 +110,7 @@ impl<'a> Growth<'a> {
         Found::Sample(pose, near.iter().filter_map(way).collect())
     }
 
-    /// Leads a component somewhere, and others after it.
+    /// Leads a component somewhere, or away from singularities, and others after it.
     fn branch(&self, open: &[u32], random: &mut Random) -> Found {
         let mine = open[random.below(open.len())];
         let towards = if random.below(2) == 0 {
@@ -119,7 +120,11 @@ impl<'a> Growth<'a> {
         };
         let from = self.roadmap.nearest(&self.territory, &towards, 1, |component| component == mine);
         let Some(&from) = from.first() else { return Found::Nothing };
-        let over = self.territory.advance(&self.roadmap.spot(from).pose, &towards, STEPS.0);
+        let start = self.roadmap.spot(from).pose;
+        let mut over = self.territory.advance(&start, &towards, STEPS.0);
+        if over.is_empty() {
+            over.extend(self.territory.climb(&start, random));
+        }
         let Some(&tip) = over.last() else { return Found::Nothing };
         let others = self.roadmap.nearest(&self.territory, &tip, 2, |component| component != mine);
         let follow = |&from: &u32| {

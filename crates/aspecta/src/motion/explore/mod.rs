@@ -18,12 +18,14 @@
 //! Growth is in rounds of tasks, each with random numbers of its own, that see the roadmap as it was before the round: without a time budget the result does not
 //! depend on the number of threads.
 
+mod assembly;
 mod body;
 mod growth;
 mod plan;
 mod roadmap;
 mod territory;
 
+pub use assembly::{JoinedSolutions, NumberedSolution, SharedClass, join_solutions};
 pub use plan::{NoWay, plan};
 
 use crate::aspect::DetSign;
@@ -134,7 +136,7 @@ pub struct Component {
     pub clearance: f64,
 }
 
-/// Explores the classes of some working modes (none: all), classes side by side. Each grows with the whole effort, but the time is that of all.
+/// Explores the classes of some working modes (none: all), one after another. Each may take all samples, and its part of the time.
 ///
 /// # Errors
 /// [`ExploreError`].

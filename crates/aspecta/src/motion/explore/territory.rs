@@ -5,13 +5,16 @@ use crate::kinematics::demand::{Demand, demands};
 use crate::kinematics::placement::Placement;
 use crate::motion::plan::Proof;
 use crate::motion::plan::cost::Cost;
-use crate::num::Random;
+use crate::num::{Random, padded};
 use crate::robot::{Robot, Unbounded, Window};
 
 /// The longest step of a way that is felt for, as a share of the window.
 const STEP: f64 = 0.06;
 /// How often a step that fails is halved.
 const HALVINGS: u32 = 3;
+/// Neighbourhoods of a pose, each half as wide as the one before, and draws from each.
+const SMALLEST: i32 = 12;
+const DRAWS: usize = 4;
 /// Where a segment is looked at in numbers before it is proved.
 const GLANCES: [f64; 7] = [1.0, 0.5, 0.25, 0.75, 0.125, 0.375, 0.875];
 
@@ -50,6 +53,11 @@ impl<'a> Territory<'a> {
         a.distance(b, self.proof.robot.characteristic_length())
     }
 
+    /// The coordinates of a body, within the window if it lies in it.
+    fn pose(&self, body: &Body) -> Pose {
+        padded(&self.proof.window.turned(&body.pose()))
+    }
+
     /// The coordinates of `b` that are joined to `a` by a straight line.
     pub fn beside(&self, a: &Pose, b: &Pose) -> Pose {
         beside(a, b, self.free, |pose| self.cost.distance(a, pose))
@@ -79,7 +87,7 @@ impl<'a> Territory<'a> {
         let mut pose: Pose = std::array::from_fn(|k| random.within(ranges[k]));
         if self.free == [true; 3] {
             let turn = Body::even_turn([random.unit(), random.unit(), random.unit()]);
-            pose = Body::new([pose[0], pose[1], pose[2]], turn).pose();
+            pose = self.pose(&Body::new([pose[0], pose[1], pose[2]], turn));
         }
         pose
     }
@@ -88,6 +96,23 @@ impl<'a> Territory<'a> {
     pub fn draw_member(&self, random: &mut Random, tries: usize) -> Option<Pose> {
         let is_member = |pose: &Pose| self.seems_to_hold(pose) && self.proof.holds(pose, pose);
         (0..tries).map(|_| self.draw(random)).find(is_member)
+    }
+
+    /// A pose somewhere near, drawn from ever smaller neighbourhoods until one is joined to `from` and further from singularities: none
+    /// if nothing near is.
+    pub fn climb(&self, from: &Pose, random: &mut Random) -> Option<Pose> {
+        let clearance = |pose: &Pose| {
+            let measures = self.cost.measures(pose);
+            measures.parallel.min(measures.serial)
+        };
+        let (least, length) = (clearance(from), self.proof.robot.characteristic_length());
+        let near = |k: i32| {
+            let shares: [f64; 6] = std::array::from_fn(|_| random.within((-1.0, 1.0)));
+            let size = STEP * self.cost.size * 0.5_f64.powi(k);
+            self.pose(&Body::at(from).moved(shares.map(|share| share * size), length))
+        };
+        let is_better = |pose: &Pose| clearance(pose) > least && self.joins(from, pose);
+        (0..SMALLEST).flat_map(|k| [k; DRAWS]).map(near).find(is_better)
     }
 
     /// From a pose of the class towards another pose, in at most `steps` steps: the poses met, each joined to the one before by a
@@ -103,7 +128,7 @@ impl<'a> Territory<'a> {
             }
             let here = Body::at(&at);
             let whole = (STEP * self.cost.size / self.distance(&here, &goal)).min(0.5);
-            let step = |k: u32| here.towards(&goal, whole * 0.5_f64.powi(k as i32)).pose();
+            let step = |k: u32| self.pose(&here.towards(&goal, whole * 0.5_f64.powi(k as i32)));
             let Some(next) = (0..=HALVINGS).map(step).find(|next| self.joins(&at, next)) else { break };
             way.push(next);
         }

@@ -208,7 +208,9 @@ impl Roadmap {
         &self,
         analysis: &Analysis,
         proof: &Proof<'_>,
-        cost: &Cost<'_, 3>, ends: [Pose; 2]) -> Option<Vec<Pose>> {
+        cost: &Cost<'_, 3>,
+        ends: [Pose; 2],
+    ) -> Option<Vec<Pose>> {
         let [up, down] = ends.map(|end| self.access(analysis, proof, &end));
         let same = |a: &Access| down.iter().find(|b| self.spot(a.spot).piece == self.spot(b.spot).piece);
         let (a, b) = up.iter().find_map(|a| Some((a, same(a)?)))?;
@@ -232,7 +234,13 @@ impl Roadmap {
     }
 
     /// Appends the way from a spot to its neighbour. With margins: if they are kept.
-    fn go_on(&self, proof: &Proof<'_>, cost: &Cost<'_, 3>, path: &mut Vec<Pose>, [from, to]: [u32; 2]) -> bool {
+    fn go_on(
+        &self,
+        proof: &Proof<'_>,
+        cost: &Cost<'_, 3>,
+        path: &mut Vec<Pose>,
+        [from, to]: [u32; 2],
+    ) -> bool {
         let (here, there) = (self.spot(from), self.spot(to));
         let last = path[path.len() - 1];
         if let Some(bridge) = self.bridge(from, to) {

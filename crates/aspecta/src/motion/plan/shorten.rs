@@ -1,8 +1,8 @@
 //! From a way over boxes to a path that is worth driving: waypoints are left out and moved, each time the segments that
 //! change are proved anew.
 
-use super::cost::Cost;
 use super::Proof;
+use super::cost::Cost;
 
 /// Waypoints further apart than this share of the window get one between them before they are moved.
 const APART: f64 = 0.2;
@@ -14,7 +14,11 @@ const ROUNDS: usize = 5;
 const THINNING: f64 = 0.01;
 
 /// A path of proved segments, made cheaper; its ends stay.
-pub(in crate::motion) fn improve<const K: usize>(proof: &Proof<'_>, cost: &Cost<'_, K>, path: Vec<[f64; K]>) -> Vec<[f64; K]> {
+pub(in crate::motion) fn improve<const K: usize>(
+    proof: &Proof<'_>,
+    cost: &Cost<'_, K>,
+    path: Vec<[f64; K]>,
+) -> Vec<[f64; K]> {
     let mut path = shortcut(proof, cost, path);
     for _ in 0..2 {
         if !cost.is_length() {
