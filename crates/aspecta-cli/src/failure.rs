@@ -5,6 +5,7 @@ use aspecta::certificate::CertificateError;
 use aspecta::domain::cusps::CuspError;
 use aspecta::kinematics::KinematicsError;
 use aspecta::motion::PathError;
+use aspecta::motion::explore::ExploreError;
 use aspecta::motion::follow::StartError;
 use aspecta::motion::time::TimeError;
 use aspecta::robot::FileError;
@@ -42,6 +43,9 @@ pub enum Failure {
     /// It cannot be analysed.
     #[error(transparent)]
     Analysis(#[from] AnalysisError),
+    /// It cannot be explored.
+    #[error(transparent)]
+    Explore(#[from] ExploreError),
     /// Its cusps cannot be looked for.
     #[error(transparent)]
     Cusps(#[from] CuspError),

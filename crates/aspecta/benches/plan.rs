@@ -4,6 +4,7 @@
 
 use aspecta::aspect::{Options, analyze};
 use aspecta::kinematics::WorkingMode;
+use aspecta::motion::explore::{self, Effort};
 use aspecta::motion::modes::ModeGraph;
 use aspecta::motion::plan::{PlanOptions, Planner};
 use aspecta::paving::{Budget, Control};
@@ -73,9 +74,39 @@ fn plan(c: &mut Criterion) {
     c.bench_function("five-bar/graph of working-mode changes", |b| b.iter(|| ModeGraph::new(&analysis)));
 }
 
+/// Random pairs of poses of Dietmaier's platform with one sign of det A, over a roadmap that is grown for each; and an exploration.
+fn free_body(c: &mut Criterion) {
+    let robot = catalogue::find("gough-stewart").expect("a robot of the catalogue");
+    let mode = robot.working_modes()[0];
+    let ranges = robot.workspace_window().expect("a bounded robot").ranges;
+    let pose = |i: usize| -> Vec<f64> {
+        let share = |k: usize| (share(i, k) + 0.37 * (k / 3) as f64).fract();
+        ranges.iter().enumerate().map(|(k, r)| r.0 + share(k) * (r.1 - r.0)).collect()
+    };
+    let in_class = |pose: &Vec<f64>| {
+        let solutions = robot.inverse(pose).expect("a pose");
+        solutions.iter().any(|s| s.within_limits && s.det_a > 0.1)
+    };
+    let poses: Vec<Vec<f64>> = (1..).map(pose).filter(in_class).take(40).collect();
+    let control = Control { cancelled: &NEVER, progress: &|_| {} };
+    let effort = Effort { samples: 20_000, seconds: None };
+    let mut i = 0;
+    c.bench_function("gough-stewart/plan, mean of pairs", |b| {
+        b.iter(|| {
+            i = (i + 2) % poses.len();
+            let ends = [&poses[i][..], black_box(&poses[i + 1])];
+            explore::plan(&robot, mode, ends, &PlanOptions::default(), &effort, &control).is_ok()
+        })
+    });
+    let effort = Effort { samples: 512, seconds: None };
+    c.bench_function("gough-stewart/explore, 512 samples a class", |b| {
+        b.iter(|| explore::explore(&robot, &[], &effort, &control).is_ok())
+    });
+}
+
 criterion_group! {
     name = benches;
     config = Criterion::default().sample_size(20);
-    targets = plan
+    targets = plan, free_body
 }
 criterion_main!(benches);

@@ -1,15 +1,17 @@
 //! `aspecta assembly`: the poses of a joint vector by aspects, and how to change from one to another.
 
-use super::planning::{self, Planned, Planning};
+use super::joined;
+use super::planning::{self, Planned, Planning, plan_over_roadmap};
 use super::queries::{Labels, det_a_unit};
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
 use crate::output::{Align, FORMAT_VERSION, Format, Table, exact, json, note, number};
-use aspecta::kinematics::WorkingMode;
+use aspecta::kinematics::{DirectSolutions, WorkingMode};
 use aspecta::motion::assembly::{AssemblyModes, CuspRound, Fold, assembly_modes, cusps_round, folds};
+use aspecta::motion::explore::join_solutions;
 use aspecta::motion::modes::{Configuration, ModeGraph, NoRoute, Route};
-use aspecta::motion::plan::{Plan, Planner};
-use aspecta::robot::Robot;
+use aspecta::motion::plan::{Plan, PlanOptions, Planner};
+use aspecta::robot::{Platform, Robot};
 use clap::Args;
 use serde::Serialize;
 use std::io::Write;
@@ -40,7 +42,9 @@ const EXAMPLES: &str = "\
 Examples:
   aspecta assembly 3-rpr --q 14.98,15.38,12
   aspecta assembly 3-rpr --q 14.98,15.38,12 --from 2 --to 3 --explain
+  aspecta assembly gough-stewart --q 1,0.645275,1.086284,1.503439,1.281933,0.771071
 Solutions in one aspect can be changed into each other without meeting a singularity; those whose det A differs in sign cannot.
+Of robots with six coordinates a roadmap says which are joined (aspecta explore); that two could not be joined proves nothing.
 Exit status: 0 listed, or planned; 1 no such change (it says whether that is proved), or the list is not proved complete; 2 bad input.";
 
 #[derive(Serialize)]
@@ -63,7 +67,7 @@ impl Assembly {
         let robot = input::robot(&self.robot)?;
         let options = self.planning.options()?;
         let q = input::list("--q", &self.q, &Columns::joints(&robot), self.planning.shown.deg)?;
-        let solutions = robot.direct(&q)?;
+        let DirectSolutions { solutions, complete } = robot.direct_certified(&q)?;
         let chosen = self.from.zip(self.to).map(|(i, j)| [usize::from(i), usize::from(j)]);
         if let Some(wrong) = chosen.into_iter().flatten().find(|&k| k > solutions.len()) {
             let count = solutions.len();
@@ -71,12 +75,15 @@ impl Assembly {
                 "solution {wrong}: this joint vector has {count} direct solutions"
             )));
         }
+        if robot.platform == Platform::FreeBody {
+            let found = DirectSolutions { solutions, complete };
+            return self.over_roadmap(out, &robot, &q, found, chosen, &options);
+        }
         let through = chosen.is_some_and(|[i, j]| solutions[i - 1].mode != solutions[j - 1].mode);
         let mut modes: Vec<WorkingMode> = solutions.iter().map(|s| s.mode).collect();
         modes.sort_unstable();
         modes.dedup();
         if solutions.is_empty() {
-            let complete = robot.direct_certified(&q)?.complete;
             let (solutions, numbered_among, shared) = Default::default();
             let modes = AssemblyModes { q, complete, solutions, numbered_among, shared };
             return self.print(out, &robot, &Found { modes, change: None, explained: None });
@@ -98,7 +105,7 @@ impl Assembly {
                 let plan = planner.plan(start.mode, start.pose, goal.pose, &options);
                 plan.map(Route::from).map_err(NoRoute::from)
             };
-            let change = self.planning.moving.film(analysis, change);
+            let change = self.planning.moving.film(&robot, Some(analysis), change);
             let explicable = change.result.as_ref().ok().filter(|_| self.explain && !through);
             let plan = explicable.map(|route| &route.stretches[0]);
             let explain = |plan: &Plan| {
@@ -109,6 +116,44 @@ impl Assembly {
             Ok(Found { modes, change: Some(change), explained })
         })?;
         self.print(out, &robot, &found)
+    }
+
+    /// Of a free body: the list by what a roadmap joins, or the change that was chosen.
+    fn over_roadmap(
+        &self,
+        out: &mut dyn Write,
+        robot: &Robot,
+        q: &[f64],
+        found: DirectSolutions,
+        chosen: Option<[usize; 2]>,
+        options: &PlanOptions,
+    ) -> Result<Answer, Failure> {
+        if self.explain {
+            return Err(Failure::Input(format!(
+                "--explain: what a change goes round is told of robots with up to three coordinates; `{}` has six",
+                robot.name
+            )));
+        }
+        let Some(pair) = chosen else {
+            let joined = self
+                .planning
+                .analysing
+                .explore(|effort, control| Ok(join_solutions(robot, q, found, effort, control)?))?;
+            return joined::print(out, robot, &joined, self.planning.shown);
+        };
+        let [from, to] = pair.map(|k| &found.solutions[k - 1]);
+        if from.mode != to.mode {
+            return Err(Failure::Input(format!(
+                "solutions {} and {} are in working modes {} and {}: changes of working mode are not planned for free bodies",
+                pair[0], pair[1], from.mode, to.mode
+            )));
+        }
+        let ends = [&from.pose[..], &to.pose[..]];
+        let change = self.planning.analysing.explore(|effort, control| {
+            let change = plan_over_roadmap(robot, from.mode, ends, options, (effort, control))?;
+            Ok(self.planning.moving.film(robot, None, change))
+        })?;
+        planning::print(out, robot, &change, &self.planning)
     }
 
     fn print(&self, out: &mut dyn Write, robot: &Robot, found: &Found) -> Result<Answer, Failure> {

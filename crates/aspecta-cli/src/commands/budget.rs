@@ -1,11 +1,27 @@
 //! `--budget`: how far an analysis goes.
 
+use crate::failure::Failure;
+use aspecta::motion::explore::Effort;
 use aspecta::paving::{Budget, MAX_DEPTH};
 use aspecta::robot::Robot;
 
 /// What is fine enough to work with the aspects of a robot, if no budget is given.
 pub fn coarse(robot: &Robot) -> Budget {
     Budget { depth: Some(if robot.dof() == 2 { 11 } else { 7 }), ..Budget::default() }
+}
+
+/// What a roadmap may take: its budget is a time.
+///
+/// # Errors
+/// [`Failure::Input`] if it is something else.
+pub fn effort(budget: Option<Budget>, samples: u32) -> Result<Effort, Failure> {
+    let budget = budget.unwrap_or_default();
+    if budget.boxes.is_some() || budget.depth.is_some() || budget.resolution.is_some() {
+        return Err(Failure::Input(
+            "--budget: a free body is explored by a roadmap, which has no boxes: give a time, such as 30s, or --samples".into(),
+        ));
+    }
+    Ok(Effort { samples: samples as usize, seconds: budget.seconds })
 }
 
 /// Reads a comma-separated budget: `30s`, `5min`, `1h`, `2e6boxes`, `depth=9`, `res=0.1`.

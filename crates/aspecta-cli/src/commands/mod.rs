@@ -12,11 +12,13 @@ mod cusps;
 mod domains;
 mod doubts;
 mod drawing;
+mod explore;
 mod export;
 mod fix;
 mod fk;
 mod follow;
 mod ik;
+mod joined;
 mod locate;
 mod mapping;
 mod modes;
@@ -71,6 +73,8 @@ pub enum Command {
     Assembly(assembly::Assembly),
     /// Which aspects are joined by legs that change their postures: the graph of working-mode changes
     Modes(modes::Modes),
+    /// The pose space of a free body (six coordinates) by a roadmap: classes of aspects, and what is joined within them
+    Explore(explore::Explore),
     /// Which aspects and uniqueness domains hold a whole set of poses: a box, a list, paths
     Traverse(traverse::Traverse),
     /// Run through a path as fast as joint speeds and accelerations allow, once it is proved to be sound
@@ -105,6 +109,7 @@ impl Command {
             Self::Plan(command) => command.run(out),
             Self::Assembly(command) => command.run(out),
             Self::Modes(command) => command.run(out),
+            Self::Explore(command) => command.run(out),
             Self::Traverse(command) => command.run(out),
             Self::Time(command) => command.run(out),
             Self::Follow(command) => command.run(out),

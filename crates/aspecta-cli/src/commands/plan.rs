@@ -1,12 +1,13 @@
 //! `aspecta plan`: from one pose to another without a singularity, or the proof that there is no such way.
 
-use super::planning::{self, Planning};
+use super::planning::{self, Planning, plan_over_roadmap};
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
 use aspecta::kinematics::WorkingMode;
 use aspecta::motion::modes::{Configuration, ModeGraph, NoRoute, Route};
-use aspecta::motion::plan::Planner;
+use aspecta::motion::plan::{PlanOptions, Planner};
 use aspecta::motion::traverse::PoseSet;
+use aspecta::robot::{Platform, Robot};
 use clap::Args;
 use std::io::Write;
 
@@ -16,7 +17,7 @@ use std::io::Write;
 pub struct Plan {
     /// Name from `aspecta robots`, or path of a robot file
     robot: String,
-    /// The pose to start from: x,y | x,y,phi | x,y,z | roll,pitch,yaw
+    /// The pose to start from: x,y | x,y,phi | x,y,z | roll,pitch,yaw | x,y,z,roll,pitch,yaw
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
     from: String,
     /// The pose to go to; angles count modulo a full turn
@@ -40,7 +41,8 @@ Examples:
   aspecta plan five-bar --from 4,7 --to 1,10 --mode +-
   aspecta plan five-bar --from 4,7 --to 4,7 --mode ++ --to-mode --
   aspecta plan 3-rrr --from -15.468,0.781,0.073 --to -9.902,-7.091,1.081 --mode +++ --weight 8
-Every segment is proved by intervals. With --csv the waypoints can be read by `aspecta check-path` (one mode).
+  aspecta plan gough-stewart --from 0.9955,-0.0511,0.0814,-2.1256,-0.0302,2.8076 --to 0.8032,-0.2960,0.5169,-2.2956,-0.1545,1.2114 --mode ------
+Every segment is proved by intervals. Robots with six coordinates are planned over a roadmap (aspecta explore). With --csv the waypoints can be read by `aspecta check-path` (one mode).
 Exit status: 0 planned; 1 no such path (it says whether that is proved); 2 bad input.";
 
 impl Plan {
@@ -55,6 +57,9 @@ impl Plan {
         let mode = input::mode(&robot, &self.mode)?;
         let to_mode = self.to_mode.as_deref().map_or(Ok(mode), |text| input::mode(&robot, text))?;
         let through = self.through_modes || mode != to_mode;
+        if robot.platform == Platform::FreeBody {
+            return self.over_roadmap(out, &robot, (mode, through), [&from, &to], &options);
+        }
         let modes: &[WorkingMode] = if through { &[] } else { &[mode] };
         let planned = self.planning.analysing.with(&robot, modes, |analysis, _| {
             let mut planner = Planner::new(analysis);
@@ -67,8 +72,31 @@ impl Plan {
                 let plan = planner.plan(mode, &from, &to, &options);
                 plan.map(Route::from).map_err(NoRoute::from)
             };
-            Ok(self.planning.moving.film(analysis, result))
+            Ok(self.planning.moving.film(&robot, Some(analysis), result))
         })?;
         planning::print(out, &robot, &planned, &self.planning)
+    }
+
+    /// Of a free body.
+    fn over_roadmap(
+        &self,
+        out: &mut dyn Write,
+        robot: &Robot,
+        (mode, through): (WorkingMode, bool),
+        ends: [&[f64]; 2],
+        options: &PlanOptions,
+    ) -> Result<Answer, Failure> {
+        if through {
+            return Err(Failure::Input(format!(
+                "`{}` is a free body: changes of working mode are not planned for it; give the same mode for both ends, without \
+                 --through-modes",
+                robot.name
+            )));
+        }
+        let planned = self.planning.analysing.explore(|effort, control| {
+            let result = plan_over_roadmap(robot, mode, ends, options, (effort, control))?;
+            Ok(self.planning.moving.film(robot, None, result))
+        })?;
+        planning::print(out, robot, &planned, &self.planning)
     }
 }

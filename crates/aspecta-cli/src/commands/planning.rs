@@ -11,6 +11,7 @@ use crate::output::{Align, FORMAT_VERSION, Format, ShownArgs, Table, brief, exac
 use aspecta::aspect::{Analysis, Options, analyze};
 use aspecta::kinematics::WorkingMode;
 use aspecta::motion::crossing::Crossing;
+use aspecta::motion::explore::{self, Effort, NoWay};
 use aspecta::motion::modes::{NoRoute, Route};
 use aspecta::motion::plan::{Plan, PlanOptions, Refusal};
 use aspecta::motion::time::{Waypoint, trajectory};
@@ -30,6 +31,9 @@ pub struct Analysing {
     /// When to stop telling the aspects apart, as for `analyze` [default: depth=11 for 2 coordinates, depth=7 for 3]
     #[arg(long, value_parser = budget::parse, allow_hyphen_values = true)]
     budget: Option<Budget>,
+    /// Free bodies are not analysed but explored by a roadmap: how many poses it draws at most [default: 20000]. A --budget is then a time
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    samples: Option<u32>,
     /// Number of threads [default: all cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
@@ -43,6 +47,12 @@ impl Analysing {
         modes: &[WorkingMode],
         work: impl FnOnce(&Analysis, &aspecta::paving::Control<'_>) -> Result<T, Failure>,
     ) -> Result<T, Failure> {
+        if let Some(samples) = self.samples {
+            return Err(Failure::Input(format!(
+                "--samples {samples}: `{}` is no free body, its aspects are paved with boxes (--budget)",
+                robot.name
+            )));
+        }
         let budget = self.budget.unwrap_or_else(|| budget::coarse(robot));
         // In the plane all modes cost nothing to speak of, and aspects then have the numbers of `analyze`.
         let modes = if robot.dof() == 2 { &[] } else { modes };
@@ -54,6 +64,38 @@ impl Analysing {
             }
             work(&analysis, control)
         })?
+    }
+}
+
+/// Samples of a roadmap that is to join given poses, if no number is given.
+const SAMPLES: u32 = 20_000;
+
+impl Analysing {
+    /// What `work` makes of a free body, with the effort its roadmaps may take.
+    pub fn explore<T>(
+        &self,
+        work: impl FnOnce(&Effort, &aspecta::paving::Control<'_>) -> Result<T, Failure>,
+    ) -> Result<T, Failure> {
+        let effort = budget::effort(self.budget, self.samples.unwrap_or(SAMPLES))?;
+        watched(self.threads, |control| work(&effort, control))?
+    }
+}
+
+/// The path over a roadmap of a free body, or why there is none.
+///
+/// # Errors
+/// [`Failure::Explore`].
+pub fn plan_over_roadmap(
+    robot: &Robot,
+    mode: WorkingMode,
+    ends: [&[f64]; 2],
+    options: &PlanOptions,
+    (effort, control): (&Effort, &aspecta::paving::Control<'_>),
+) -> Result<Result<Route, NoRoute>, Failure> {
+    match explore::plan(robot, mode, ends, options, effort, control) {
+        Ok(plan) => Ok(Ok(plan.into())),
+        Err(NoWay::Refused(refusal)) => Ok(Err(refusal.into())),
+        Err(NoWay::Robot(error)) => Err(error.into()),
     }
 }
 
@@ -150,12 +192,20 @@ pub struct Planned {
 }
 
 impl Moving {
-    /// The result with the page that plays it, if that is wanted.
-    pub fn film(&self, analysis: &Analysis, result: Result<Route, NoRoute>) -> Planned {
+    /// The result with the page that plays it, if that is wanted: with the aspects that were analysed.
+    pub fn film(
+        &self,
+        robot: &Robot,
+        analysis: Option<&Analysis>,
+        result: Result<Route, NoRoute>,
+    ) -> Planned {
         let route = result.as_ref().ok().filter(|_| self.out.is_some());
         let page = route.map(|route| {
-            let pieces = route.pieces(&analysis.robot);
-            let mut motion = Motion::new(&analysis.robot).within(analysis);
+            let pieces = route.pieces(robot);
+            let mut motion = Motion::new(robot);
+            if let Some(analysis) = analysis {
+                motion = motion.within(analysis);
+            }
             for samples in pieces.iter().flat_map(|piece| piece.samples.chunk_by(|a, b| a.mode == b.mode)) {
                 motion = motion.then(samples[0].mode, &profile(samples));
             }
@@ -259,6 +309,7 @@ pub fn print(
 fn advice(refusal: &NoRoute) -> &'static str {
     match refusal {
         NoRoute::SerialMargin => " (--avoid M,0)",
+        NoRoute::Plan(Refusal::NotJoined { .. }) => " (--samples, --budget)",
         NoRoute::Unknown(_) | NoRoute::NotFound { .. } | NoRoute::Plan(Refusal::NotFound { .. }) => {
             " (--budget)"
         }

@@ -104,6 +104,69 @@ fn sets_of_poses_are_traversed() {
     assert!(shown.contains("uniqueness domain 1 of aspect"), "{shown}");
 }
 
+/// Poses of Dietmaier's platform at his strut lengths: two with det A < 0, one with det A > 0.
+const LOW: &str = "0.99537,-0.05120,0.08138,-2.12556,-0.03022,2.80757";
+const LOWER: &str = "0.80327,-0.29601,0.51686,-2.29563,-0.15448,1.21144";
+const HIGH: &str = "0.66753,0.73832,-0.09638,-2.55057,-0.33924,-1.86632";
+
+#[test]
+fn free_bodies_are_planned_over_a_roadmap() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("path.csv");
+    let arguments = format!("plan gough-stewart --from {LOW} --to {LOWER} --mode ------");
+    fs::write(&path, stdout(&format!("{arguments} --csv"))).unwrap();
+    let check = output(&format!("check-path gough-stewart {} --mode ------", path.display()));
+    assert_eq!(check.status.code(), Some(0), "{}", text(&check.stdout));
+    let motion = directory.path().join("motion.csv");
+    let moving = format!(
+        "{arguments} --json --trajectory {} --speed 1 --acceleration 4 --out {}",
+        motion.display(),
+        directory.path().display()
+    );
+    let plan = json(&moving);
+    assert_eq!(plan["checks"][0]["singularity_free"], true, "{plan}");
+    assert_eq!(numbers(&plan["stretches"][0]["waypoints"][0])[0], 0.99537);
+    assert!(fs::read_to_string(&motion).unwrap().starts_with("time,x,y,z,roll,pitch,yaw,q1,"));
+    assert!(fs::read_to_string(directory.path().join("motion.html")).unwrap().contains("<svg"));
+}
+
+#[test]
+fn the_assembly_modes_of_a_free_body_are_joined() {
+    let q = "1,0.645275,1.086284,1.503439,1.281933,0.771071";
+    let found = json(&format!("assembly gough-stewart --q {q} --json"));
+    assert_eq!(found["solutions"].as_array().unwrap().len(), 40, "{found}");
+    for class in found["classes"].as_array().unwrap() {
+        assert_eq!(class["joined"].as_array().unwrap().len(), 1, "{class}");
+        let pair = [0, 1].map(|k| class["joined"][0][k].as_u64().unwrap());
+        let change =
+            json(&format!("assembly gough-stewart --q {q} --from {} --to {} --json", pair[0], pair[1]));
+        assert_eq!(change["checks"][0]["singularity_free"], true, "{change}");
+    }
+}
+
+#[test]
+fn what_a_roadmap_does_not_join_is_proved_apart_or_undecided() {
+    let refused = output(&format!("plan gough-stewart --from {LOW} --to {HIGH} --mode ------ --json"));
+    assert_eq!(refused.status.code(), Some(1));
+    let answer: serde_json::Value = serde_json::from_slice(&refused.stdout).unwrap();
+    assert_eq!(answer["refusal"]["proved"], true, "{answer}");
+    let arguments = format!("plan gough-stewart --from {LOW} --to {LOWER} --mode ------ --budget 0.000001s");
+    let refused = output(&arguments);
+    assert_eq!(refused.status.code(), Some(1));
+    let told = text(&refused.stdout);
+    assert!(told.contains("undecided: could not be joined within the budget (0 samples"), "{told}");
+}
+
+#[test]
+fn the_poses_of_a_free_body_are_explored() {
+    let shown = stdout("explore gough-stewart --samples 256");
+    assert!(shown.contains("gough-stewart: at least 2 generalized aspects, certified"), "{shown}");
+    assert!(shown.contains("bounds the number of aspects neither way (numerical)"), "{shown}");
+    let found = json("explore hexa --mode ++++++ --samples 64 --json");
+    assert_eq!(found["at_least"], 2, "{found}");
+    assert_eq!(numbers(&found["classes"][0]["components"][0]["representative"]).len(), 6, "{found}");
+}
+
 #[test]
 fn mistakes_are_named() {
     for (arguments, complaint) in [
@@ -112,7 +175,19 @@ fn mistakes_are_named() {
         ("plan five-bar --from 4,7 --to 5,6 --mode +", "`+` is not a working mode of `five-bar`"),
         ("plan five-bar --from 4,7 --to 5,6 --mode +- --avoid 2", "--avoid: `2` is not a number from 0 to 1"),
         ("plan five-bar --from 4,7 --to 5,6 --mode +- --weight -1", "--weight"),
-        ("plan hexa --from 0,0,-600,0,0,0 --to 0,0,-600,0,0,0 --mode ------", "6 degrees of freedom"),
+        (
+            "plan hexa --from 0,0,-600,0,0,0 --to 0,0,-600,0,0,0 --mode ------ --to-mode +-----",
+            "changes of working mode are not planned",
+        ),
+        ("plan hexa --from 0,0,-600,0,0 --to 0,0,-600,0,0,0 --mode ------", "has 6 pose coordinates"),
+        (
+            "plan hexa --from 0,0,-600,0,0,0 --to 0,0,-600,0,0,0 --mode ------ --budget depth=5",
+            "give a time, such as 30s",
+        ),
+        ("plan five-bar --from 4,7 --to 5,6 --mode +- --samples 10", "is no free body"),
+        ("explore five-bar", "roadmaps are for `free-body`"),
+        ("explore hexa --mode +", "`+` is not a working mode of `hexa`"),
+        ("explore hexa --budget 2e6boxes", "give a time, such as 30s"),
         ("assembly 3-rpr --q 14.98,15.38,12 --from 1 --to 9", "has 6 direct solutions"),
         ("assembly 3-rpr --q 14.98,15.38 ", "has 3 joint coordinates"),
         ("traverse five-bar --box 2:6,8:10 --through-modes", "give them with --poses"),

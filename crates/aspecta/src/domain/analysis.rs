@@ -8,6 +8,7 @@ use super::result::*;
 use super::sheet::Sheet;
 use super::uniqueness::maximal_sets;
 use crate::aspect::Analysis;
+use crate::num::Random;
 use crate::paving::Control;
 use std::collections::BTreeSet;
 
@@ -152,15 +153,8 @@ fn violations(sheet: &Sheet<'_>, partition: &Partition, images: &Images, regions
 fn agreement(sheet: &Sheet<'_>, partition: &Partition, regions: &[Region], samples: usize) -> Agreement {
     let grid = &partition.labels.grid;
     let mut agreement = Agreement::default();
-    let mut random = 0x9e37_79b9_7f4a_7c15_u64;
-    let mut uniform = || {
-        // SplitMix64 (Steele, Lea, Flood 2014).
-        random = random.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = random;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    };
+    let mut random = Random::new(0x9e37_79b9_7f4a_7c15);
+    let mut uniform = || random.unit();
     let inside: Vec<usize> =
         (0..grid.len()).filter(|&node| partition.labels.region[node] != OUTSIDE).collect();
     for _ in (0..samples).take_while(|_| !inside.is_empty()) {

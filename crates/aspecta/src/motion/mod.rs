@@ -3,6 +3,7 @@
 pub mod assembly;
 mod check;
 pub mod crossing;
+pub mod explore;
 pub mod follow;
 pub mod modes;
 pub mod plan;

@@ -230,7 +230,12 @@ impl Planner<'_> {
     /// The aspects of both ends.
     fn aspects_of(&self, start: Configuration<'_>, goal: Configuration<'_>) -> Result<[usize; 2], NoRoute> {
         let analysis = self.analysis();
-        let sign = |end, at: Configuration<'_>| sign_at(analysis, at.mode, (end, at.pose));
+        let sign = |end, at: Configuration<'_>| {
+            if !analysis.classes.iter().any(|class| class.mode == at.mode) {
+                return Err(Refusal::Mode(at.mode));
+            }
+            sign_at(&analysis.robot, &analysis.window, at.mode, (end, at.pose))
+        };
         let signs = [sign(End::Start, start)?, sign(End::Goal, goal)?];
         if signs[0] != signs[1] {
             return Err(NoRoute::OppositeSigns(signs[0]));

@@ -16,6 +16,7 @@ mod disc;
 mod interval;
 mod jet;
 mod pack;
+mod random;
 mod slope;
 
 pub use ball::Ball;
@@ -23,6 +24,7 @@ pub use disc::Disc;
 pub use interval::Interval;
 pub use jet::Jet;
 pub use pack::{LANES, Mask, Pack};
+pub(crate) use random::Random;
 pub use slope::{Enclosure, Slope};
 
 use std::ops::{Add, Div, Mul, Neg, Sub};

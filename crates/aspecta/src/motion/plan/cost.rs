@@ -1,11 +1,10 @@
 //! What a path costs: its length, the dearer the nearer it comes to a singularity. Numerical: it decides which of the sound paths is
 //! taken, never whether a path is sound.
 
-use super::Pose;
 use crate::kinematics::demand::{Demand, Margins, measures};
 use crate::kinematics::for_platform;
 use crate::kinematics::placement::Placement;
-use crate::robot::{Robot, Window};
+use crate::robot::{Platform, Robot, Window};
 use std::f64::consts::TAU;
 
 /// Samples of a segment's cost, at least.
@@ -13,45 +12,59 @@ const FEWEST: f64 = 3.0;
 /// And at most.
 const MOST: f64 = 16.0;
 
-/// The cost of paths in one class of aspects.
-pub(super) struct Cost<'a> {
+/// The cost of paths in one class of aspects, through poses of at most K coordinates.
+pub(in crate::motion) struct Cost<'a, const K: usize> {
     robot: &'a Robot,
     demand: &'a Demand,
     /// What a unit of each coordinate is worth: 1 for lengths, the characteristic length for angles.
-    scale: Pose,
-    glued: [bool; 3],
+    scale: [f64; K],
+    glued: [bool; K],
     /// How much nearness to singularities counts.
     weight: f64,
     /// The diagonal of the window.
     pub size: f64,
 }
 
-impl<'a> Cost<'a> {
+impl<'a, const K: usize> Cost<'a, K> {
     pub fn new(robot: &'a Robot, window: &Window, demand: &'a Demand, weight: f64) -> Self {
         let coordinates = robot.platform.coordinates();
         let turning = coordinates.iter().all(|c| c.angle);
-        let mut scale = [0.0; 3];
+        let mut scale = [0.0; K];
         for (scale, c) in scale.iter_mut().zip(coordinates) {
             *scale = if c.angle && !turning { robot.characteristic_length() } else { 1.0 };
         }
         let glued = std::array::from_fn(|k| window.glued.get(k) == Some(&true));
         let mut cost = Self { robot, demand, scale, glued, weight, size: 0.0 };
-        let corner = |upper: bool| -> Pose {
-            let mut corner = [0.0; 3];
+        let corner = |upper: bool| {
+            let mut corner = [0.0; K];
             corner.iter_mut().zip(&window.ranges).for_each(|(x, r)| *x = if upper { r.1 } else { r.0 });
             corner
         };
-        cost.size = cost.distance(&corner(false), &corner(true));
+        let (low, high) = (corner(false), corner(true));
+        cost.size = (0..K).map(|k| ((high[k] - low[k]) * scale[k]).powi(2)).sum::<f64>().sqrt();
         cost
     }
 
-    /// Length of the straight segment: translations and angles times the characteristic length.
-    pub fn distance(&self, a: &Pose, b: &Pose) -> f64 {
-        (0..3).map(|k| ((b[k] - a[k]) * self.scale[k]).powi(2)).sum::<f64>().sqrt()
+    /// Length of the straight segment: translations and angles times the characteristic length. Of a free body it is the angle it turns through.
+    pub fn distance(&self, a: &[f64; K], b: &[f64; K]) -> f64 {
+        let step: [f64; K] = std::array::from_fn(|k| (b[k] - a[k]) * self.scale[k]);
+        let apart: f64 = step.iter().map(|x| x * x).sum();
+        if self.robot.platform != Platform::FreeBody {
+            return apart.sqrt();
+        }
+        // With R = R_z R_y R_x, |ω|² = the sum of squares − 2 sin(pitch) · (rate of roll) · (rate of yaw).
+        let (roll, pitch, yaw) = (K - 3, K - 2, K - 1);
+        let speed = |t: f64| {
+            let sin = (a[pitch] + t * (b[pitch] - a[pitch])).sin();
+            (apart - 2.0 * sin * step[roll] * step[yaw]).max(0.0).sqrt()
+        };
+        // Gauss's rule with three points.
+        let off = 0.5 * 0.6_f64.sqrt();
+        (5.0 * speed(0.5 - off) + 8.0 * speed(0.5) + 5.0 * speed(0.5 + off)) / 18.0
     }
 
     /// The pose `b`, turned by full turns to be next to `a`.
-    pub fn beside(&self, a: &Pose, b: &Pose) -> Pose {
+    pub fn beside(&self, a: &[f64; K], b: &[f64; K]) -> [f64; K] {
         // Where no turn is needed the pose stays what it is, to the last bit.
         let turns = |k: usize| if self.glued[k] { ((a[k] - b[k]) / TAU).round() } else { 0.0 };
         std::array::from_fn(|k| b[k] + turns(k) * TAU)
@@ -63,7 +76,7 @@ impl<'a> Cost<'a> {
     }
 
     /// |det Â| and the least |B_jj| / max |B_jj|; zeros where the pose is not in the class.
-    pub fn measures(&self, x: &Pose) -> Margins {
+    pub fn measures(&self, x: &[f64; K]) -> Margins {
         let pose = &x[..self.robot.dof()];
         for_platform!(self.robot.platform, measured(self.robot, self.demand, pose))
     }
@@ -79,13 +92,13 @@ impl<'a> Cost<'a> {
     }
 
     /// Cost of a straight segment.
-    pub fn of(&self, a: &Pose, b: &Pose) -> f64 {
+    pub fn of(&self, a: &[f64; K], b: &[f64; K]) -> f64 {
         let length = self.distance(a, b);
         if self.is_length() {
             return length;
         }
         let count = (24.0 * length / self.size).clamp(FEWEST, MOST).ceil() as usize;
-        let at = |i: usize| -> Pose {
+        let at = |i: usize| -> [f64; K] {
             let t = (i as f64 + 0.5) / count as f64;
             std::array::from_fn(|k| a[k] + t * (b[k] - a[k]))
         };
@@ -94,7 +107,7 @@ impl<'a> Cost<'a> {
     }
 
     /// Cost of a polyline.
-    pub fn of_all(&self, path: &[Pose]) -> f64 {
+    pub fn of_all(&self, path: &[[f64; K]]) -> f64 {
         path.windows(2).map(|ends| self.of(&ends[0], &ends[1])).sum()
     }
 }

@@ -8,10 +8,10 @@
 //! be joined without a zero; and poses that lie in two aspects of a class ([`Analysis::aspect_at`]) cannot be joined within the class by
 //! Definition 8.
 
-mod cost;
+pub(super) mod cost;
 pub(super) mod refusal;
 mod roadmap;
-mod shorten;
+pub(super) mod shorten;
 
 pub use refusal::{End, Refusal};
 
@@ -20,6 +20,7 @@ use crate::kinematics::WorkingMode;
 use crate::kinematics::demand::{Demand, Margins};
 use crate::kinematics::path::Along;
 use crate::num::padded;
+use crate::robot::{Robot, Window};
 use cost::Cost;
 use roadmap::Roadmap;
 use serde::Serialize;
@@ -71,32 +72,33 @@ pub struct Planner<'a> {
 /// Interval evaluations for a segment that is only tried.
 const TRIAL: usize = 200;
 /// For one that is to be returned.
-const FINAL: usize = 100_000;
+pub(super) const FINAL: usize = 100_000;
 /// How often a way is looked for again because a segment of it does not keep the margins.
 const DETOURS: usize = 200;
 
 /// What proves segments.
-struct Proof<'a> {
-    analysis: &'a Analysis,
-    demand: &'a Demand,
+pub(super) struct Proof<'a> {
+    pub robot: &'a Robot,
+    pub window: &'a Window,
+    pub demand: &'a Demand,
 }
 
 impl Proof<'_> {
     fn axes(&self) -> usize {
-        self.analysis.robot.dof()
+        self.robot.dof()
     }
 
     /// Whether the segment between two poses meets the demand, within the window.
-    fn holds(&self, a: &Pose, b: &Pose) -> bool {
+    pub fn holds<const K: usize>(&self, a: &[f64; K], b: &[f64; K]) -> bool {
         self.holds_within(a, b, TRIAL)
     }
 
-    fn holds_within(&self, a: &Pose, b: &Pose, effort: usize) -> bool {
+    /// [`Proof::holds`], with more or less effort.
+    pub fn holds_within<const K: usize>(&self, a: &[f64; K], b: &[f64; K], effort: usize) -> bool {
         let n = self.axes();
-        let window = &self.analysis.window;
-        window.holds(&a[..n])
-            && window.holds(&b[..n])
-            && Along::is_inside(&self.analysis.robot, self.demand, [&a[..n], &b[..n]], effort)
+        self.window.holds(&a[..n])
+            && self.window.holds(&b[..n])
+            && Along::is_inside(self.robot, self.demand, [&a[..n], &b[..n]], effort)
     }
 }
 
@@ -123,11 +125,15 @@ impl<'a> Planner<'a> {
         options: &PlanOptions,
     ) -> Result<Plan, Refusal> {
         let analysis = self.analysis;
-        let det_a = refusal::common_sign(analysis, mode, [start, goal], options.margins)?;
+        let (robot, window) = (&analysis.robot, &analysis.window);
+        if !analysis.classes.iter().any(|class| class.mode == mode) {
+            return Err(Refusal::Mode(mode));
+        }
+        let det_a = refusal::common_sign(robot, window, mode, [start, goal], options.margins)?;
         let (class, aspect) = refusal::common_aspect(analysis, mode, det_a, [start, goal])?;
         let demand = Demand { margins: options.margins, ..Demand::class(mode, det_a.factor()) };
-        let cost = Cost::new(&analysis.robot, &analysis.window, &demand, options.weight);
-        let proof = Proof { analysis, demand: &demand };
+        let cost = Cost::new(robot, window, &demand, options.weight);
+        let proof = Proof { robot, window, demand: &demand };
         let ends = [start, goal].map(|pose| -> Pose { padded(&analysis.window.turned(pose)) });
         let path = self.sound_path(class, &cost, &proof, ends)?;
         let path = shorten::improve(&proof, &cost, path);
@@ -148,7 +154,7 @@ impl<'a> Planner<'a> {
     fn sound_path(
         &mut self,
         class: usize,
-        cost: &Cost<'_>,
+        cost: &Cost<'_, 3>,
         proof: &Proof<'_>,
         ends: [Pose; 2],
     ) -> Result<Vec<Pose>, Refusal> {
@@ -161,14 +167,14 @@ impl<'a> Planner<'a> {
         let deepest = analysis.paving_of(class).0.depth;
         for depth in coarsest(analysis.robot.dof()).min(deepest)..=deepest {
             let roadmap = self.roadmap(class, depth, cost);
-            if let Some(path) = roadmap.path(proof, cost, ends) {
+            if let Some(path) = roadmap.path(analysis, proof, cost, ends) {
                 return Ok(path);
             }
         }
         // Climbs join what boxes alone do not.
         let roadmap = self.roadmap(class, deepest, cost);
         if roadmap.build_bridges(analysis)
-            && let Some(path) = roadmap.path(proof, cost, ends)
+            && let Some(path) = roadmap.path(analysis, proof, cost, ends)
         {
             return Ok(path);
         }
@@ -178,7 +184,7 @@ impl<'a> Planner<'a> {
         Err(Refusal::NotFound { depth: deepest, margins: proof.demand.margins })
     }
 
-    fn roadmap(&mut self, class: usize, depth: u32, cost: &Cost<'_>) -> &mut Roadmap {
+    fn roadmap(&mut self, class: usize, depth: u32, cost: &Cost<'_, 3>) -> &mut Roadmap {
         let made = &mut self.roadmaps[class];
         match made.iter().position(|roadmap| roadmap.depth == depth) {
             Some(k) => &mut made[k],
@@ -198,8 +204,14 @@ fn coarsest(dof: usize) -> u32 {
 
 impl Roadmap {
     /// A proved path over its boxes: from the start up to a box, from box to box, down to the goal.
-    fn path(&self, proof: &Proof<'_>, cost: &Cost<'_>, ends: [Pose; 2]) -> Option<Vec<Pose>> {
-        let [up, down] = ends.map(|end| self.access(proof, &end));
+    fn path(
+        &self,
+        analysis: &Analysis,
+        proof: &Proof<'_>,
+        cost: &Cost<'_, 3>,
+        ends: [Pose; 2],
+    ) -> Option<Vec<Pose>> {
+        let [up, down] = ends.map(|end| self.access(analysis, proof, &end));
         let same = |a: &Access| down.iter().find(|b| self.spot(a.spot).piece == self.spot(b.spot).piece);
         let (a, b) = up.iter().find_map(|a| Some((a, same(a)?)))?;
         let margins = proof.demand.margins;
@@ -222,7 +234,13 @@ impl Roadmap {
     }
 
     /// Appends the way from a spot to its neighbour. With margins: if they are kept.
-    fn go_on(&self, proof: &Proof<'_>, cost: &Cost<'_>, path: &mut Vec<Pose>, [from, to]: [u32; 2]) -> bool {
+    fn go_on(
+        &self,
+        proof: &Proof<'_>,
+        cost: &Cost<'_, 3>,
+        path: &mut Vec<Pose>,
+        [from, to]: [u32; 2],
+    ) -> bool {
         let (here, there) = (self.spot(from), self.spot(to));
         let last = path[path.len() - 1];
         if let Some(bridge) = self.bridge(from, to) {
@@ -244,19 +262,19 @@ impl Roadmap {
     }
 
     /// Ways from a pose to boxes, by proved segments: the box it lies in, and those that a climb comes to.
-    fn access(&self, proof: &Proof<'_>, end: &Pose) -> Vec<Access> {
+    fn access(&self, analysis: &Analysis, proof: &Proof<'_>, end: &Pose) -> Vec<Access> {
         let n = proof.axes();
         let mut found: Vec<Access> = Vec::new();
         let mut path = vec![*end];
         let mut add = |path: &[Pose], pose: &[f64]| {
-            if let Some(spot) = self.holding(proof.analysis, pose)
+            if let Some(spot) = self.holding(analysis, pose)
                 && found.iter().all(|access| self.spot(access.spot).piece != self.spot(spot).piece)
             {
                 found.push(Access { path: path.to_vec(), spot });
             }
         };
         add(&path, &end[..n]);
-        proof.analysis.climb(self.class, &end[..n], &mut |pose| {
+        analysis.climb(self.class, &end[..n], &mut |pose| {
             let next = padded(pose);
             // The climb itself is proved to stay in the class, whatever its margins.
             if proof.demand.margins.are_any() && !proof.holds(&path[path.len() - 1], &next) {

@@ -5,6 +5,7 @@ use crate::kinematics::demand::{Demand, Margins};
 use crate::kinematics::modal::Constraint;
 use crate::kinematics::path::{Along, Curve, along};
 use crate::kinematics::{KinematicsError, WorkingMode};
+use crate::robot::{Robot, Window};
 use serde::Serialize;
 use std::fmt;
 
@@ -97,6 +98,19 @@ pub enum Refusal {
         /// The margins asked for.
         margins: Margins,
     },
+    /// Neither a path nor a proof that there is none, by a roadmap ([`crate::motion::explore`]).
+    #[error(
+        "undecided: could not be joined within the budget ({samples} samples, {seconds:.1} s){}, and no path is excluded",
+        if .margins.are_any() { " with these margins" } else { "" }
+    )]
+    NotJoined {
+        /// Poses drawn.
+        samples: usize,
+        /// How long it took.
+        seconds: f64,
+        /// The margins asked for.
+        margins: Margins,
+    },
     /// A path was found, but one of its segments could not be proved.
     #[error("undecided: a path was found, but not proved from {pose:?} on")]
     Unproved {
@@ -129,19 +143,20 @@ impl Refusal {
 }
 
 /// The sign of det A at both ends, proved, as is that the ends keep the margins.
-pub(super) fn common_sign(
-    analysis: &Analysis,
+pub(in crate::motion) fn common_sign(
+    robot: &Robot,
+    window: &Window,
     mode: WorkingMode,
     ends: [&[f64]; 2],
     margins: Margins,
 ) -> Result<DetSign, Refusal> {
     let [start, goal] = [(End::Start, ends[0]), (End::Goal, ends[1])];
-    let signs = [sign_at(analysis, mode, start)?, sign_at(analysis, mode, goal)?];
+    let signs = [sign_at(robot, window, mode, start)?, sign_at(robot, window, mode, goal)?];
     if signs[0] != signs[1] {
         return Err(Refusal::OppositeSigns(signs[0]));
     }
     let demand = Demand { margins, ..Demand::class(mode, signs[0].factor()) };
-    let keeps = |pose: &[f64]| Along::is_inside(&analysis.robot, &demand, [pose, pose], 1);
+    let keeps = |pose: &[f64]| Along::is_inside(robot, &demand, [pose, pose], 1);
     match [start, goal].into_iter().find(|(_, pose)| !keeps(pose)) {
         Some((end, _)) => Err(Refusal::Margins(end)),
         None => Ok(signs[0]),
@@ -150,16 +165,13 @@ pub(super) fn common_sign(
 
 /// The sign of det A at a pose that is proved to lie in a class.
 pub(in crate::motion) fn sign_at(
-    analysis: &Analysis,
+    robot: &Robot,
+    window: &Window,
     mode: WorkingMode,
     (end, pose): (End, &[f64]),
 ) -> Result<DetSign, Refusal> {
-    let robot = &analysis.robot;
     robot.check_pose(pose).map_err(|error| Refusal::Pose { end, error })?;
-    if !analysis.classes.iter().any(|class| class.mode == mode) {
-        return Err(Refusal::Mode(mode));
-    }
-    if !analysis.window.holds(&analysis.window.turned(pose)) && robot.window.iter().any(Option::is_some) {
+    if !window.holds(&window.turned(pose)) && robot.window.iter().any(Option::is_some) {
         return Err(Refusal::Window(end));
     }
     let at =

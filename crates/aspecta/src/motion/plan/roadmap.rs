@@ -47,7 +47,7 @@ struct Bridge {
 
 impl Roadmap {
     /// The boxes of class `class` (index into [`Analysis::classes`]) that lie in it, not deeper than `depth`.
-    pub fn new(analysis: &Analysis, class: usize, depth: u32, cost: &Cost<'_>) -> Self {
+    pub fn new(analysis: &Analysis, class: usize, depth: u32, cost: &Cost<'_, 3>) -> Self {
         let (paving, bit) = analysis.paving_of(class);
         let sight = sight(bit, depth);
         let mut nodes = Vec::new();
@@ -164,7 +164,7 @@ impl Roadmap {
     /// `blocked` pairs.
     pub fn way(
         &self,
-        cost: &Cost<'_>,
+        cost: &Cost<'_, 3>,
         margins: Margins,
         blocked: &HashSet<(u32, u32)>,
         [start, goal]: [u32; 2],

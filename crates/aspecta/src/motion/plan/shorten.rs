@@ -1,8 +1,8 @@
 //! From a way over boxes to a path that is worth driving: waypoints are left out and moved, each time the segments that
 //! change are proved anew.
 
+use super::Proof;
 use super::cost::Cost;
-use super::{Pose, Proof};
 
 /// Waypoints further apart than this share of the window get one between them before they are moved.
 const APART: f64 = 0.2;
@@ -14,7 +14,11 @@ const ROUNDS: usize = 5;
 const THINNING: f64 = 0.01;
 
 /// A path of proved segments, made cheaper; its ends stay.
-pub(super) fn improve(proof: &Proof<'_>, cost: &Cost<'_>, path: Vec<Pose>) -> Vec<Pose> {
+pub(in crate::motion) fn improve<const K: usize>(
+    proof: &Proof<'_>,
+    cost: &Cost<'_, K>,
+    path: Vec<[f64; K]>,
+) -> Vec<[f64; K]> {
     let mut path = shortcut(proof, cost, path);
     for _ in 0..2 {
         if !cost.is_length() {
@@ -30,7 +34,7 @@ pub(super) fn improve(proof: &Proof<'_>, cost: &Cost<'_>, path: Vec<Pose>) -> Ve
 }
 
 /// Leaves out waypoints that hardly pay: a path with few corners is worth a little more length.
-fn thin(proof: &Proof<'_>, cost: &Cost<'_>, mut path: Vec<Pose>) -> Vec<Pose> {
+fn thin<const K: usize>(proof: &Proof<'_>, cost: &Cost<'_, K>, mut path: Vec<[f64; K]>) -> Vec<[f64; K]> {
     let mut allowance = THINNING * cost.of_all(&path);
     let mut k = 1;
     while k + 1 < path.len() {
@@ -48,7 +52,7 @@ fn thin(proof: &Proof<'_>, cost: &Cost<'_>, mut path: Vec<Pose>) -> Vec<Pose> {
 
 /// Goes from each waypoint straight to the furthest later one, doubling the number of waypoints that are left out as long as that is
 /// proved and no dearer.
-fn shortcut(proof: &Proof<'_>, cost: &Cost<'_>, path: Vec<Pose>) -> Vec<Pose> {
+fn shortcut<const K: usize>(proof: &Proof<'_>, cost: &Cost<'_, K>, path: Vec<[f64; K]>) -> Vec<[f64; K]> {
     let mut dear = vec![0.0];
     for ends in path.windows(2) {
         dear.push(dear[dear.len() - 1] + cost.of(&ends[0], &ends[1]));
@@ -80,7 +84,7 @@ fn shortcut(proof: &Proof<'_>, cost: &Cost<'_>, path: Vec<Pose>) -> Vec<Pose> {
 }
 
 /// The same path with more waypoints.
-fn subdivide(cost: &Cost<'_>, path: &[Pose]) -> Vec<Pose> {
+fn subdivide<const K: usize>(cost: &Cost<'_, K>, path: &[[f64; K]]) -> Vec<[f64; K]> {
     let mut fine = vec![path[0]];
     for ends in path.windows(2) {
         let parts = (cost.distance(&ends[0], &ends[1]) / (APART * cost.size)).ceil().max(1.0);
@@ -94,7 +98,7 @@ fn subdivide(cost: &Cost<'_>, path: &[Pose]) -> Vec<Pose> {
 }
 
 /// Moves inner waypoints along the coordinates while that makes the path cheaper. Whether any was.
-fn relax(proof: &Proof<'_>, cost: &Cost<'_>, path: &mut [Pose]) -> bool {
+fn relax<const K: usize>(proof: &Proof<'_>, cost: &Cost<'_, K>, path: &mut [[f64; K]]) -> bool {
     let mut any = false;
     let mut length = STEP * cost.size;
     for _ in 0..ROUNDS {

@@ -4,12 +4,9 @@ use crate::kinematics::direct::projective::{Point, Quadrics};
 use nalgebra::Complex;
 use std::sync::LazyLock;
 
-/// Numbers, one complex number a pair: a line of [`COEFFICIENTS`] of them a leg, then a line of eight a point. Written by the test
+/// Numbers, one complex number a pair: a line of coefficients a leg, then a line of eight coordinates a point. Written by the test
 /// `tests::the_start_system_is_found_from_one_point`.
 const DATA: &str = include_str!("start.txt");
-
-/// A leg equation is linear in 17 monomials: ten products of the eᵢ, six eᵢ gⱼ − eⱼ gᵢ, and g · g.
-const COEFFICIENTS: usize = 17;
 
 type Start = (Quadrics<8, 7>, Vec<Point<8>>);
 
@@ -31,7 +28,8 @@ pub(super) fn points() -> &'static [Point<8>] {
     &START.1
 }
 
-/// The member of the family with these coefficients, and the Study quadric.
+/// The member of the family with these coefficients, 17 a leg: of the ten products of the eᵢ, of six eᵢ gⱼ − eⱼ gᵢ, and of g · g; and the Study
+/// quadric.
 fn member(legs: &[Vec<Complex<f64>>]) -> Quadrics<8, 7> {
     let mut system = Quadrics::ZERO;
     for (form, leg) in system.forms.iter_mut().zip(legs) {
@@ -67,39 +65,29 @@ fn member(legs: &[Vec<Complex<f64>>]) -> Quadrics<8, 7> {
 mod tests {
     use super::*;
     use crate::kinematics::direct::projective::{Family, Pace, Tracker, polish};
+    use crate::num::Random;
 
-    /// SplitMix64: reproducible numbers in [−1, 1].
-    struct Random(u64);
+    const COEFFICIENTS: usize = 17;
 
-    impl Random {
-        fn number(&mut self) -> f64 {
-            self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-            let mut z = self.0;
-            z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-            z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-            ((z ^ (z >> 31)) >> 11) as f64 * 2.0f64.powi(-52) - 1.0
-        }
+    fn complex(random: &mut Random) -> Complex<f64> {
+        Complex::new(random.within((-1.0, 1.0)), random.within((-1.0, 1.0)))
+    }
 
-        fn complex(&mut self) -> Complex<f64> {
-            Complex::new(self.number(), self.number())
-        }
-
-        fn legs(&mut self) -> Vec<Vec<Complex<f64>>> {
-            (0..6).map(|_| (0..COEFFICIENTS).map(|_| self.complex()).collect()).collect()
-        }
+    fn random_legs(random: &mut Random) -> Vec<Vec<Complex<f64>>> {
+        (0..6).map(|_| (0..COEFFICIENTS).map(|_| complex(random)).collect()).collect()
     }
 
     /// A generic system and a point of it: the six coefficients of g · g are chosen so that it is one.
     fn seed(random: &mut Random) -> (Vec<Vec<Complex<f64>>>, Point<8>) {
         let mut x = Point::<8>::from_fn(|_| Complex::default());
         for k in 0..8 {
-            let z = random.complex();
+            let z = complex(random);
             (x.re[k], x.im[k]) = (z.re, z.im);
         }
         let dot: Complex<f64> = (1..4).map(|k| x.get(k) * x.get(k + 4)).sum();
         let g0 = -dot / x.get(0);
         (x.re[4], x.im[4]) = (g0.re, g0.im);
-        let mut legs = random.legs();
+        let mut legs = random_legs(random);
         legs.iter_mut().for_each(|leg| leg[COEFFICIENTS - 1] = Complex::default());
         let values = member(&legs).at(&x).values;
         let square: Complex<f64> = (4..8).map(|k| x.get(k) * x.get(k)).sum();
@@ -111,7 +99,7 @@ mod tests {
     fn all_points(base: &Quadrics<8, 7>, first: Point<8>, random: &mut Random) -> Vec<Point<8>> {
         let mut points = vec![polish(base, first)];
         for _ in 0..40 {
-            let loop_of = [member(&random.legs()), member(&random.legs())];
+            let loop_of = [member(&random_legs(random)), member(&random_legs(random))];
             let stations = [base, &loop_of[0], &loop_of[1], base];
             for k in 0..points.len() {
                 let mut x = points[k];
@@ -134,20 +122,29 @@ mod tests {
         points
     }
 
+    /// Writes start.txt where `ASPECTA_WRITE_START` is set, and else finds what is there.
     #[test]
-    #[ignore = "writes start.txt"]
     fn the_start_system_is_found_from_one_point() {
-        let mut random = Random(std::env::var("SEED").ok().and_then(|s| s.parse().ok()).unwrap_or(1));
+        let mut random = Random::new(1);
         let (legs, x) = seed(&mut random);
         let base = member(&legs);
-        let points = all_points(&base, x, &mut random);
-        assert_eq!(points.len(), 40);
-        let line = |z: &mut dyn Iterator<Item = Complex<f64>>| {
-            z.map(|z| format!("{} {}", z.re, z.im)).collect::<Vec<_>>().join(" ") + "\n"
-        };
-        let mut text: String = legs.iter().map(|leg| line(&mut leg.iter().copied())).collect();
-        text += &points.iter().map(|x| line(&mut (0..8).map(|k| x.get(k)))).collect::<String>();
-        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/src/kinematics/direct/free_body/start.txt");
-        std::fs::write(path, text).unwrap();
+        let found = all_points(&base, x, &mut random);
+        assert_eq!(found.len(), 40);
+        if std::env::var_os("ASPECTA_WRITE_START").is_some() {
+            let line = |z: &mut dyn Iterator<Item = Complex<f64>>| {
+                z.map(|z| format!("{} {}", z.re, z.im)).collect::<Vec<_>>().join(" ") + "\n"
+            };
+            let mut text: String = legs.iter().map(|leg| line(&mut leg.iter().copied())).collect();
+            text += &found.iter().map(|x| line(&mut (0..8).map(|k| x.get(k)))).collect::<String>();
+            let path = concat!(env!("CARGO_MANIFEST_DIR"), "/src/kinematics/direct/free_body/start.txt");
+            std::fs::write(path, text).unwrap();
+            return;
+        }
+        let apart = |a: &Point<8>, b: &Point<8>| 1.0 - a.conjugate().dot(b).norm_sqr();
+        for (k, x) in points().iter().enumerate() {
+            assert!(system().at(x).values.iter().all(|v| v.norm() < 1e-13), "point {k}");
+            assert!(points()[..k].iter().all(|other| apart(x, other) > 1e-8), "point {k}");
+            assert!(found.iter().any(|other| apart(x, other) < 1e-12), "point {k}");
+        }
     }
 }

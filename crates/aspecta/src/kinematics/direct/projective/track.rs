@@ -137,8 +137,7 @@ impl<'a, const V: usize, const F: usize> Tracker<'a, V, F> {
         for iteration in 0..MOST_CORRECTIONS {
             let (factors, shift) = newton(&self.system, &x, patch)?;
             let size = shift.norm();
-            // Not a number neither.
-            if !(size <= most) {
+            if size > most || size.is_nan() {
                 return None;
             }
             if iteration == 0 {

@@ -1,0 +1,136 @@
+//! `aspecta explore`: the whole pose space of a free body, by a roadmap.
+
+use super::budget;
+use super::queries::Labels;
+use super::watch::watched;
+use crate::failure::{Answer, Failure};
+use crate::input;
+use crate::output::{Align, FORMAT_VERSION, Table, brief, json, note};
+use aspecta::kinematics::WorkingMode;
+use aspecta::motion::explore::{End, Exploration, ExploredClass, explore};
+use aspecta::paving::Budget;
+use aspecta::robot::Robot;
+use clap::Args;
+use serde::Serialize;
+use std::io::Write;
+
+/// Arguments of `explore`.
+#[derive(Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Explore {
+    /// Name from `aspecta robots`, or path of a robot file
+    robot: String,
+    /// Only this working mode, such as `+--+-+`; again for several
+    #[arg(long, allow_hyphen_values = true)]
+    mode: Vec<String>,
+    /// How many poses are drawn in each class, steps into the unknown included
+    #[arg(long, value_name = "N", default_value_t = 1024, value_parser = clap::value_parser!(u32).range(1..))]
+    samples: u32,
+    /// When to stop, whatever the samples: a time, such as 30s or 5min
+    #[arg(long, value_parser = budget::parse, allow_hyphen_values = true)]
+    budget: Option<Budget>,
+    /// Number of threads [default: all cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+    /// Angles of the table are in degrees
+    #[arg(long)]
+    deg: bool,
+    /// Print JSON, and nothing else, on stdout (angles in radians)
+    #[arg(long)]
+    json: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  aspecta explore gough-stewart
+  aspecta explore hexa --mode ------ --samples 4096
+Six coordinates are too many for boxes. Poses are drawn in each class (a working mode and a sign of det A) and joined by motions.
+Certified: that a pose lies in its class, that poses of one component are joined without a singularity and within limits, that classes
+are apart. Numerical: how many components a class has, which is what was seen within the budget and bounds nothing.
+Exit status: 0 explored; 2 bad input.";
+
+/// Components of a class that are listed.
+const LISTED: usize = 5;
+
+#[derive(Serialize)]
+struct Document<'a> {
+    format_version: u32,
+    #[serde(flatten)]
+    found: &'a Exploration,
+}
+
+impl Explore {
+    pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
+        let robot = input::robot(&self.robot)?;
+        let modes = self.mode.iter().map(|text| input::mode(&robot, text));
+        let modes: Vec<WorkingMode> = modes.collect::<Result<_, _>>()?;
+        let effort = budget::effort(self.budget, self.samples)?;
+        let found = watched(self.threads, |control| explore(&robot, &modes, &effort, control))??;
+        if found.classes.iter().any(|class| class.end == End::Cancelled) {
+            note("interrupted: this is what was seen so far");
+        }
+        if self.json {
+            json(out, &Document { format_version: FORMAT_VERSION, found: &found })?;
+        } else {
+            print(out, &robot, &found, self.deg)?;
+        }
+        Ok(Answer::Yes)
+    }
+}
+
+fn print(out: &mut dyn Write, robot: &Robot, found: &Exploration, degrees: bool) -> Result<(), Failure> {
+    let labels = Labels::pose(robot, degrees);
+    let left = |name: &str| (name.to_owned(), Align::Left);
+    let right = |name: &str| (name.to_owned(), Align::Right);
+    let first = [left("mode"), left("det A"), right("samples"), right("component"), right("drawn in it")];
+    let heading = labels.headings().map(|name| (name, Align::Right));
+    let mut table = Table::new(first.into_iter().chain([right("|det Â|")]).chain(heading));
+    for class in &found.classes {
+        rows(class, &labels, &mut table);
+    }
+    write!(out, "{table}")?;
+    writeln!(
+        out,
+        "\n{}: at least {} generalized aspects, certified: so many classes (working mode, sign of det A) have a pose proved to lie in them",
+        found.robot, found.at_least
+    )?;
+    writeln!(
+        out,
+        "poses of one component are joined by segments proved free of singularities and within limits: certified"
+    )?;
+    let parted = found.classes.iter().filter(|class| class.components.len() > 1).count();
+    if parted > 0 {
+        writeln!(
+            out,
+            "in {parted} classes not all was joined within the budget; components of a class may still lie in one aspect"
+        )?;
+    }
+    let empty = found.classes.iter().filter(|class| class.components.is_empty()).count();
+    if empty > 0 {
+        writeln!(out, "in {empty} classes no pose was found, which does not prove that there is none")?;
+    }
+    writeln!(
+        out,
+        "the number of components is what was seen: it bounds the number of aspects neither way (numerical)"
+    )?;
+    Ok(())
+}
+
+/// The largest components of a class, and how many more there are.
+fn rows(class: &ExploredClass, labels: &Labels, table: &mut Table) {
+    let (mode, det_a, samples) = (class.mode.to_string(), class.det_a.to_string(), class.samples.to_string());
+    let count = class.components.len();
+    if count == 0 {
+        table.row([mode, det_a, samples, "none seen".into()]);
+        return;
+    }
+    for (k, component) in class.components.iter().take(LISTED).enumerate() {
+        let of = format!("{} of {count}", k + 1);
+        let numbers = [of, component.samples.to_string(), brief(component.clearance)];
+        let first = [mode.clone(), det_a.clone(), samples.clone()];
+        table.row(first.into_iter().chain(numbers).chain(labels.numbers(&component.representative)));
+    }
+    if count > LISTED {
+        table.row([mode, det_a, samples, format!("{} more", count - LISTED)]);
+    }
+}
