@@ -52,11 +52,19 @@ fn kinematics(c: &mut Criterion) {
         (three_rrr(), vec![-12.0, -4.0, 0.5]),
         (three_rpr(), vec![5.0, 10.0, 0.3]),
         (delta(), vec![0.05, 0.02, -0.5]),
+        (Robot::resolve("spherical-3-rrr").unwrap(), vec![0.1, 0.2, 0.3]),
+        (Robot::resolve("hexa").unwrap(), vec![10.0, 20.0, -600.0, 0.1, 0.2, 0.3]),
+        (Robot::resolve("gough-stewart").unwrap(), vec![0.2, 0.1, 0.3, 0.1, 0.2, 0.3]),
     ];
     for (robot, pose) in &robots {
         let name = &robot.name;
         let inverse = robot.inverse(pose).unwrap();
-        let q: &[f64] = if name == "3-rpr" { &[14.98, 15.38, 12.0] } else { &inverse[0].q };
+        let q: &[f64] = match name.as_str() {
+            "3-rpr" => &[14.98, 15.38, 12.0],
+            // Dietmaier's, with 40 real poses.
+            "gough-stewart" => &[1.0, 0.645275, 1.086284, 1.503439, 1.281933, 0.771071],
+            _ => &inverse[0].q,
+        };
         println!(
             "{name}: {} inverse solutions, {} direct solutions",
             inverse.len(),
