@@ -96,8 +96,7 @@ fn print_table(
     degrees: bool,
 ) -> Result<(), Failure> {
     let (pose, joints) = (Labels::pose(robot, degrees), Labels::joints(robot, degrees));
-    let (given, wanted, model) =
-        if unknown == Unknown::Joints { (&pose, &joints, "inverse") } else { (&joints, &pose, "direct") };
+    let (given, model) = if unknown == Unknown::Joints { (pose, "inverse") } else { (joints, "direct") };
     let total: usize = found.iter().map(|f| f.solutions.len()).sum();
     let solutions = format!("{total} {model} solution{}", if total == 1 { "" } else { "s" });
     match found {
@@ -106,9 +105,26 @@ fn print_table(
         }
         _ => writeln!(out, "{}: {solutions} of {} rows", robot.name, found.len())?,
     }
-    if total == 0 {
-        return Ok(());
+    if total > 0 {
+        write!(out, "{}", table(robot, unknown, found, degrees))?;
     }
+    if found.iter().any(|f| f.complete == Some(false)) {
+        let reason = if robot.platform.turns_in_space() {
+            "fewer complex solutions are proved than such robots have: two may be too close to be told apart, or the geometry is special"
+        } else {
+            "two are too close to be told apart"
+        };
+        writeln!(out, "not proved to be all solutions: {reason}")?;
+    }
+    if found.iter().flat_map(|f| &f.solutions).any(|s| !s.serial_legs.is_empty()) {
+        writeln!(out, "0 in a mode: the leg is at a serial singularity, where its postures meet")?;
+    }
+    Ok(())
+}
+
+fn table(robot: &Robot, unknown: Unknown, found: &[Found], degrees: bool) -> Table {
+    let (pose, joints) = (Labels::pose(robot, degrees), Labels::joints(robot, degrees));
+    let wanted = if unknown == Unknown::Joints { &joints } else { &pose };
     let numbered = found.iter().any(|f| f.query.line.is_some());
     let right = |name: String| (name, Align::Right);
     let mut headings = Vec::new();
@@ -132,14 +148,14 @@ fn print_table(
                 if s.certified { "yes" } else { "no" }.into(),
                 if s.within_limits { "within" } else { "beyond" }.into(),
             ];
-            table.row(
-                line.into_iter().chain([s.mode.to_string()]).chain(wanted.numbers(unknowns)).chain(labels),
-            );
+            table.row(line.into_iter().chain([mode(s)]).chain(wanted.numbers(unknowns)).chain(labels));
         }
     }
-    write!(out, "{table}")?;
-    if found.iter().any(|f| f.complete == Some(false)) {
-        writeln!(out, "not proved to be all solutions: two are too close to be told apart")?;
-    }
-    Ok(())
+    table
+}
+
+/// The working mode, with 0 for legs at a serial singularity.
+fn mode(solution: &Solution) -> String {
+    let sign = |(leg, sign)| if solution.serial_legs.contains(&leg) { '0' } else { sign };
+    (1..).zip(solution.mode.to_string().chars()).map(sign).collect()
 }

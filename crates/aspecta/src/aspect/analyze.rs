@@ -101,6 +101,24 @@ pub enum AnalysisError {
 /// [`AnalysisError`] if the workspace is unbounded or empty, more than three coordinates are free, there is no such slice or no such
 /// mode, or no certificate for such a robot.
 pub fn analyze(robot: &Robot, options: &Options, control: &Control<'_>) -> Result<Analysis, AnalysisError> {
+    with_deep_stacks(robot, || analyze_here(robot, options, control))
+}
+
+/// Does work on threads whose stacks hold the kernels of the robot: with six degrees of freedom these keep matrices of slopes of packs, hundreds of
+/// kilobytes, and a thread that waits for another takes tasks over on top of its own.
+fn with_deep_stacks<T: Send>(robot: &Robot, work: impl FnOnce() -> T + Send) -> T {
+    const STACK: usize = 64 << 20;
+    if robot.dof() <= 3 {
+        return work();
+    }
+    let threads = rayon::current_num_threads();
+    match rayon::ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK).build() {
+        Ok(pool) => pool.install(work),
+        Err(_) => work(),
+    }
+}
+
+fn analyze_here(robot: &Robot, options: &Options, control: &Control<'_>) -> Result<Analysis, AnalysisError> {
     let start = Instant::now();
     refuse(robot, options)?;
     let window = robot.slice(&options.fix)?;

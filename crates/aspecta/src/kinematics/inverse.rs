@@ -85,6 +85,7 @@ impl Robot {
             solutions.push(Solution {
                 pose: pose.to_vec(),
                 mode,
+                serial_legs: self.serial_legs(&jacobians.b),
                 det_a: jacobians.det_a(),
                 residual: jacobians.residual,
                 q,

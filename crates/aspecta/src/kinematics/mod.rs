@@ -49,6 +49,8 @@ pub struct Solution {
     pub q: Vec<f64>,
     /// The working mode: signs of B_jj.
     pub mode: WorkingMode,
+    /// The legs (from 1) at a serial singularity, to the tolerance [`SINGULAR`]: their signs in `mode` mean nothing.
+    pub serial_legs: Vec<usize>,
     /// det A = det ∂f/∂X.
     pub det_a: f64,
     /// Largest |f_i| relative to the leg's lengths squared.

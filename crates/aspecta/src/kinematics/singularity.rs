@@ -105,8 +105,7 @@ impl Robot {
         let jacobians = self.jacobians(pose, q)?;
         let values = singular_values(&self.homogeneous(&jacobians.a));
         let serial_measures = self.serial_measures(&jacobians.b);
-        let serial_legs: Vec<_> =
-            (1..).zip(&serial_measures).filter(|(_, m)| **m <= SINGULAR).map(|(j, _)| j).collect();
+        let serial_legs = self.serial_legs(&jacobians.b);
         let parallel_measure = values.smallest;
         Ok(State {
             pose: pose.to_vec(),
@@ -150,6 +149,11 @@ impl Robot {
             let size = if k < translations { force } else { force * length };
             *entry = if size > 0.0 { *entry / size } else { 0.0 };
         }
+    }
+
+    /// The legs, from 1, that are at a serial singularity.
+    pub(super) fn serial_legs(&self, b: &[f64]) -> Vec<usize> {
+        (1..).zip(self.serial_measures(b)).filter(|(_, m)| *m <= SINGULAR).map(|(j, _)| j).collect()
     }
 
     fn serial_measures(&self, b: &[f64]) -> Vec<f64> {

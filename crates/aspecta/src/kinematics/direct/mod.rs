@@ -248,6 +248,7 @@ fn labelled<const D: usize, const N: usize>(
             pose: pose.to_vec(),
             q: q.to_vec(),
             mode,
+            serial_legs: robot.serial_legs(&jacobians.b),
             det_a: jacobians.det_a(),
             residual: jacobians.residual,
             certified,
