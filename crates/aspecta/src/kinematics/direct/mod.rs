@@ -8,7 +8,7 @@
 //! | plane point | two circles (`circles`) | 2 |
 //! | translating body | three spheres (`spheres`) | 2 |
 //! | plane body | 3-RPR: one trigonometric polynomial of degree 3 in φ (`planar_body`) | 6 |
-//! | turning body | three quadrics of P³ in the quaternion (`turning_body`) | 8 |
+//! | turning body | one polynomial of degree 8 (`cone`), or three quadrics of P³ in the quaternion (`turning_body`) | 8 |
 //! | free body | Gough-Stewart: seven quadrics of P⁷ in Study parameters (`free_body`) | 40 |
 //!
 //! Nothing is lost near double solutions: intervals decide how many poses there are, and where they cannot, every
@@ -18,6 +18,7 @@ mod bernstein;
 mod certify;
 mod circles;
 mod cluster;
+mod cone;
 mod eliminant;
 mod free_body;
 mod locked;

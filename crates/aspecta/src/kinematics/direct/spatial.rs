@@ -3,16 +3,24 @@
 use super::certify::certify;
 use super::locked::{Locked, linearised, polish, rounds_to_zero, units};
 use super::projective::{Point, Problem, roll_pitch_yaw, rotation};
-use super::{Roots, SelfMotion, free_body, turning_body};
+use super::{Roots, SelfMotion, cone, free_body, turning_body};
 use crate::kinematics::SINGULAR;
 use crate::kinematics::placement::Placement;
 use crate::robot::Platform;
 use nalgebra::{DMatrix, DVector, Dyn, SVD};
 
-/// The orientations of a turning body.
+/// The orientations of a turning body: by the sweep of one leg's cone, or, where that cannot tell how many there are, by all complex ones.
 pub(super) fn turning(legs: &[Locked], prove: bool) -> Result<Roots<3>, SelfMotion> {
-    let problem = turning_body::problem(legs);
+    let Some(cones) = turning_body::cones(legs) else { return Err(SelfMotion) };
+    let problem = turning_body::problem(&cones);
     let pose = |x: &Point<4>| roll_pitch_yaw(&rotation(x.re));
+    if let Some(points) = cone::sweep(&cones)
+        && let Some(ends) = problem.near(&points)
+        && (!prove || problem.prove(&ends).iter().all(Option::is_some))
+    {
+        let poses = ends.iter().map(|end| pose(&end.point)).collect();
+        return Ok(Roots { poses, proved: if prove { ends.len() } else { 0 }, at_most: Some(ends.len()) });
+    }
     found(Platform::TurningBody, legs, &problem, turning_body::MOST, prove, pose)
 }
 

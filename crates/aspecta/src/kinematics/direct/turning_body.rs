@@ -13,23 +13,42 @@ use std::sync::LazyLock;
 /// ±e is one point of P³ and one orientation. So eight different proved points are all.
 pub(super) const MOST: usize = 8;
 
-/// The form of a locked leg.
-fn form(locked: &Locked) -> [[Interval; 4]; 4] {
-    let Actuator::Spherical { proximal: (cos_p, sin_p), distal_cos } = locked.leg.actuator else {
-        // `Robot::new` lets no other leg carry a turning body.
-        return [[Interval::ENTIRE; 4]; 4];
-    };
-    let (sin, cos) = locked.q.sin_cos();
-    let w: [Interval; 3] = out_of_frame(&locked.leg, &[cos * sin_p, sin * sin_p, cos_p]);
-    let mut m = turned_product(&w, &locked.leg.attachment);
-    for (k, row) in m.iter_mut().enumerate() {
-        row[k] = row[k] - distal_cos;
-    }
-    m
+/// w(q) · R v = cos(distal) of a locked leg.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cone {
+    /// The joint between the links, in the base: a unit vector.
+    pub w: [Interval; 3],
+    /// The joint of the platform, in the platform: a unit vector.
+    pub v: [Interval; 3],
+    /// The cosine of the angle between them.
+    pub cosine: Interval,
 }
 
-pub(super) fn problem(legs: &[Locked]) -> Problem<'static, 4, 3> {
-    Problem { start: &START.0, points: &START.1, forms: std::array::from_fn(|k| form(&legs[k])) }
+/// The three cones of locked legs; `None` for legs of other kinds, which `Robot::new` lets no turning body have.
+pub(super) fn cones(legs: &[Locked]) -> Option<[Cone; 3]> {
+    let cone = |locked: &Locked| {
+        let Actuator::Spherical { proximal: (cos_p, sin_p), distal_cos } = locked.leg.actuator else {
+            return None;
+        };
+        let (sin, cos) = locked.q.sin_cos();
+        let w = out_of_frame(&locked.leg, &[cos * sin_p, sin * sin_p, cos_p]);
+        Some(Cone { w, v: locked.leg.attachment, cosine: distal_cos })
+    };
+    Some([cone(legs.first()?)?, cone(legs.get(1)?)?, cone(legs.get(2)?)?])
+}
+
+impl Cone {
+    fn form(&self) -> [[Interval; 4]; 4] {
+        let mut m = turned_product(&self.w, &self.v);
+        for (k, row) in m.iter_mut().enumerate() {
+            row[k] = row[k] - self.cosine;
+        }
+        m
+    }
+}
+
+pub(super) fn problem(cones: &[Cone; 3]) -> Problem<'static, 4, 3> {
+    Problem { start: &START.0, points: &START.1, forms: cones.each_ref().map(Cone::form) }
 }
 
 /// γₖ (eₖ² − e₀²) = 0, k = 1, 2, 3, which (1, ±1, ±1, ±1) solve. The γₖ are any complex numbers.

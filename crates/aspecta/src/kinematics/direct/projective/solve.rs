@@ -58,6 +58,16 @@ impl<const V: usize, const F: usize> Problem<'_, V, F> {
         found
     }
 
+    /// The common points next to real points that are good approximations; `None` if two of them come out as one.
+    pub fn near(&self, points: &[Point<V>]) -> Option<Ends<V>> {
+        let target = self.target();
+        let mut ends = Ends::new();
+        for x in points {
+            add(&mut ends, End { point: polish(&target, *x), arrived: true });
+        }
+        (ends.len() == points.len()).then_some(ends)
+    }
+
     /// The proofs of the ends that are proved to be common points, each different from all the others.
     pub fn prove(&self, ends: &Ends<V>) -> Vec<Option<Proved<V>>> {
         let target = self.target();
