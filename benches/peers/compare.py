@@ -10,6 +10,8 @@ import sys
 import tempfile
 from pathlib import Path
 
+from commands import fail, output
+
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 MODE = "++"
@@ -18,25 +20,6 @@ PEERS = [("1.5.7", "codac_v1.py"), ("2.1.2", "codac_v2.py")]
 # Repetitions of each paving in Aspecta.
 REPETITIONS = 30
 COLUMNS = "s | boxes | certified | undecided"
-
-
-def fail(message):
-    print(message, file=sys.stderr)
-    sys.exit(2)
-
-
-def output(command, what, given=None, **options):
-    """Standard output of a command that has to succeed. Its descendants end with this program."""
-    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
-    child = subprocess.Popen(command, text=True, start_new_session=True, **pipes, **options)
-    try:
-        printed, complaints = child.communicate(given)
-    except BaseException:
-        os.killpg(child.pid, signal.SIGKILL)
-        raise
-    if child.returncode != 0:
-        fail(f"{what} failed:\n{complaints.strip()[-2000:]}")
-    return printed
 
 
 def aspecta(depth, threads):
