@@ -137,3 +137,33 @@ fn what_has_no_domains_is_an_error() {
     let count = analysis.aspects.low;
     assert_eq!(of(&analysis, count + 1), Err(DomainError::NoAspect { id: count + 1, count }));
 }
+
+/// A spherical robot whose direct solutions are up to eight.
+#[test]
+fn a_spherical_robot_is_cut_into_regions() {
+    let leg = |at: [f64; 3], axis: [f64; 3], zero: [f64; 3], proximal: f64, distal: f64| {
+        format!(
+            "[[legs]]\nattachment = {at:?}\nactuator = {{ kind = \"spherical\", axis = {axis:?}, zero = {zero:?}, \
+             proximal = {{ deg = {proximal:?} }}, distal = {{ deg = {distal:?} }} }}\n"
+        )
+    };
+    let text = "name = \"sphere\"\nplatform = \"turning-body\"\n".to_owned()
+        + &leg([0.0, -1.0, 0.2], [1.0, 0.0, 0.1], [0.0, 1.0, 0.0], 70.0, 80.0)
+        + &leg([0.1, 0.0, -1.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], 75.0, 85.0)
+        + &leg([-1.0, 0.1, 0.0], [0.0, 0.1, 1.0], [1.0, 0.0, 0.0], 60.0, 70.0);
+    let robot = Robot::from_toml(&text, "sphere.toml").unwrap();
+    let analysis = analyzed(&robot, 5);
+    let largest = (1..=analysis.aspects.low).map(|id| partitioned(&analysis, id, 20));
+    let found = largest.max_by(|a, b| a.measure.total_cmp(&b.measure)).unwrap();
+    let Domains { agreement, .. } = &found;
+    assert!(agreement.agree as f64 > 0.99 * agreement.away as f64, "{agreement:?}");
+    assert!(agreement.away > agreement.samples / 4, "{agreement:?}");
+    for region in &found.regions {
+        let q = robot.inverse_in(&region.pose, found.mode).unwrap().unwrap();
+        let solutions = robot.direct(&q).unwrap();
+        let alike = |s: &&aspecta::kinematics::Solution| {
+            s.mode == found.mode && (s.det_a > 0.0) == (found.det_a == DetSign::Positive)
+        };
+        assert!(solutions.iter().filter(alike).count() >= usize::from(region.solutions), "{region:?}");
+    }
+}

@@ -94,7 +94,8 @@ fn uniqueness(
             regions: set.into_iter().map(|r| r + 1).collect(),
             measure,
             of_aspect: measure / aspect,
-            of_workspace: workspace.map(|w| measure / w),
+            // More than all of it: the boxes are too coarse to compare with.
+            of_workspace: workspace.map(|w| measure / w).filter(|share| *share <= 1.0),
         }
     };
     let mut domains: Vec<UniquenessDomain> = sets.into_iter().map(domain).collect();
