@@ -176,7 +176,7 @@ impl<T: Scalar, const N: usize> ModalRows<T, N> {
 
 impl<const N: usize, const M: usize> ModalRows<Slope<Pack, M>, N> {
     /// The range of [`ModalRows::det`] over eight boxes, times some positive number: more work, but mostly much narrower where N > 3
-    /// ([`super::condition`]).
+    /// (the module `condition`).
     pub fn conditioned_det(&self, mode: WorkingMode) -> Pack {
         let rows: [[_; N]; N] = std::array::from_fn(|j| self.row(j, mode.sign(j)));
         let by = Conditioner::new(&rows);
