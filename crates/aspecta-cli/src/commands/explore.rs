@@ -102,18 +102,27 @@ fn print(out: &mut dyn Write, robot: &Robot, found: &Exploration, degrees: bool)
     if parted > 0 {
         writeln!(
             out,
-            "in {parted} classes not all was joined within the budget; components of a class may still lie in one aspect"
+            "in {} not all was joined within the budget; components of a class may still lie in one aspect",
+            classes(parted)
         )?;
     }
     let empty = found.classes.iter().filter(|class| class.components.is_empty()).count();
     if empty > 0 {
-        writeln!(out, "in {empty} classes no pose was found, which does not prove that there is none")?;
+        writeln!(
+            out,
+            "in {} no pose was found before the end, which does not prove that there is none",
+            classes(empty)
+        )?;
     }
     writeln!(
         out,
         "the number of components is what was seen: it bounds the number of aspects neither way (numerical)"
     )?;
     Ok(())
+}
+
+fn classes(count: usize) -> String {
+    if count == 1 { "1 class".into() } else { format!("{count} classes") }
 }
 
 /// The largest components of a class, and how many more there are.

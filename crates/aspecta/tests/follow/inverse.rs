@@ -101,3 +101,16 @@ fn a_start_out_of_reach_is_refused() {
     assert!(matches!(at(&[4.0, 7.0], "+++"), StartError::Mode { .. }));
     assert!(matches!(at(&[4.0, f64::NAN], "++"), StartError::Kinematics(_)));
 }
+
+/// A long step of a hexapod, over which one enclosure of its 6 × 6 determinant says nothing.
+#[test]
+fn that_det_a_keeps_its_sign_is_proved_in_parts() {
+    let robot = robot("gough-stewart");
+    let mode = robot.working_modes()[0];
+    let start = vec![0.636112, 0.771452, 0.014956, 1.398979, 0.796866, -0.954519];
+    let goal: Vec<f64> = start.iter().map(|x| x + 0.05).collect();
+    let free = aspecta::motion::check_path(&robot, &[start.clone(), goal.clone()], mode).unwrap();
+    assert_eq!(free.singularity_free, Some(true));
+    let mut follower = InverseFollower::new(&robot, &start, mode).unwrap();
+    assert!(follower.step(&goal).unwrap().regular);
+}

@@ -83,7 +83,8 @@ impl InverseFollower {
     /// Goes on to `pose` along a straight segment in pose coordinates. That no leg meets a serial singularity on
     /// it is proved, and so are the turns of the angles; the digits of q are those of doubles.
     ///
-    /// At most 64 stretches are tried, each one evaluation of the inverse model in intervals. Nothing is allocated.
+    /// At most 64 stretches are tried, and 64 more where those do not tell whether det A keeps its sign, each one evaluation of the inverse
+    /// model in intervals. Nothing is allocated.
     ///
     /// # Errors
     /// [`Refusal`]; the state is then as before.
@@ -120,9 +121,27 @@ fn advance<const D: usize, const N: usize>(
     if proved < 1.0 {
         return Err(refusal::<D, N>(robot, &segment, open, proved));
     }
+    let regular = regular || keeps_det_sign::<D, N>(robot, mode, &segment);
     let within_limits = direct::within_limits::<D>(robot, &segment.goal, mode);
     (follower.pose, follower.q) = (padded(&segment.goal), padded(&q));
     Ok(JointStep { q: follower.q, dof: N, regular, within_limits, stretches })
+}
+
+/// Whether det A is proved to keep its sign along the segment, in stretches that may be shorter than those the legs need.
+fn keeps_det_sign<const D: usize, const N: usize>(
+    robot: &Robot,
+    mode: WorkingMode,
+    segment: &Segment<N>,
+) -> bool {
+    let mut from = 0.0;
+    let (proved, _) = in_stretches(|to| {
+        let kept = stretch::<D, N>(robot, mode, &segment.stretch(from, to)) == Ok(true);
+        if kept {
+            from = to;
+        }
+        kept
+    });
+    proved == 1.0
 }
 
 /// Poses X₀ + t (X₁ − X₀).
