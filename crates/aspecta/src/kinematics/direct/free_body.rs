@@ -25,10 +25,14 @@ const MOST: usize = 40;
 /// not in line make one pose. For pairs at the base, swap base and platform.
 const MOST_IN_PAIRS: usize = 16;
 
-/// An upper bound of the number of isolated poses. Joints of equal coordinates are taken for one.
+/// An upper bound of the number of isolated poses. Joints whose coordinates are written alike in a robot file are taken for one; ends of cranks and
+/// sliders are not, for each is known within the rounding of its own q.
 pub(super) fn most(legs: &[Locked]) -> usize {
     let paired = |joint: fn(&Locked) -> &[Interval; 3]| {
-        let alike = |k: usize| (0..legs.len()).filter(|&j| joint(&legs[j]) == joint(&legs[k])).count();
+        let written = |x: &Interval| x.width() <= Interval::decimal(x.mid()).width();
+        let one =
+            |j: usize, k: usize| joint(&legs[j]) == joint(&legs[k]) && joint(&legs[j]).iter().all(written);
+        let alike = |k: usize| (0..legs.len()).filter(|&j| one(j, k)).count();
         let mut corners = (0..legs.len()).filter(|&k| (0..k).all(|j| joint(&legs[j]) != joint(&legs[k])));
         let corners = [corners.next(), corners.next(), corners.next()].map(|k| joint(&legs[k.unwrap_or(0)]));
         (0..legs.len()).all(|k| alike(k) == 2) && !in_line(corners)
@@ -127,4 +131,38 @@ pub(super) fn problem(legs: &[Locked]) -> (Problem<'static, 8, 7>, Normalised) {
 fn study() -> [[Interval; 8]; 8] {
     let one = |i: usize, j: usize| Interval::point(if i.abs_diff(j) == 4 { 1.0 } else { 0.0 });
     std::array::from_fn(|i| std::array::from_fn(|j| one(i, j)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::robot::Leg;
+
+    /// Struts whose platform joints meet in pairs.
+    fn pairs() -> Vec<Locked> {
+        let leg = |k: usize| {
+            let mut leg = Leg::strut([k as f64, 0.3], [0.0, 0.0]);
+            leg.attachment =
+                [[0.1, 0.2, 0.0], [0.7, 0.3, 0.0], [0.4, 0.9, 0.1]][k / 2].map(Interval::decimal);
+            Locked::new::<3>(&leg, 1.0)
+        };
+        (0..6).map(leg).collect()
+    }
+
+    #[test]
+    fn only_joints_that_are_written_alike_are_one() {
+        assert_eq!(most(&pairs()), MOST_IN_PAIRS);
+        let mut swapped = pairs();
+        swapped.iter_mut().for_each(|l| std::mem::swap(&mut l.leg.anchor, &mut l.leg.attachment));
+        assert_eq!(most(&swapped), MOST_IN_PAIRS);
+        let mut rounded = swapped.clone();
+        let ulps = Interval::new(-1e-15, 1e-15);
+        rounded.iter_mut().for_each(|l| l.leg.anchor[0] = l.leg.anchor[0] + ulps);
+        assert_eq!(most(&rounded), MOST);
+        let mut in_line = pairs();
+        in_line.iter_mut().enumerate().for_each(|(k, l)| {
+            l.leg.attachment = [1.0, 2.0, 3.0].map(|x| Interval::point(x * (k / 2) as f64))
+        });
+        assert_eq!(most(&in_line), MOST);
+    }
 }
