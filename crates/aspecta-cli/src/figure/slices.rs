@@ -124,10 +124,15 @@ pub(crate) fn cut(cells: &[Cell], axes: &[Axis; 2], size: [usize; 2], at: f64) -
     cell_raster(&cut, axes, [0, 1], size)
 }
 
-/// Names the colours of the mode's aspects, as many as there is room for.
+/// Names the colours of the mode's aspects, the largest first, as many as there is room for.
 fn aspects(svg: &mut Svg, mode: &ModeCells<'_>, [mut x, y]: [f64; 2], width: f64) {
-    let all = mode.classes.iter().flat_map(|(class, _)| class.aspects.iter().map(|a| (a.id, class.det_a)));
-    for (id, sign) in all {
+    let mut all: Vec<_> = mode
+        .classes
+        .iter()
+        .flat_map(|(class, _)| class.aspects.iter().map(|a| (a.measure, a.id, class.det_a)))
+        .collect();
+    all.sort_by(|a, b| b.0.total_cmp(&a.0));
+    for (_, id, sign) in all {
         if x > width - 150.0 {
             svg.text([x, y], Anchor::Start, 11.0, "", "…");
             return;
