@@ -107,7 +107,7 @@ fn sheet(
     let id = format!("{name}-{}", domains.aspect);
     let mut svg = Svg::new(&id, width, height + legend.height() + 12.0, &title);
     svg.text([panels.left, 16.0], Anchor::Start, 13.0, "font-weight:600", &title);
-    let (boundary, surface) = (Mesh::from(cut.boundary), Mesh::from(cut.surface));
+    let [boundary, surface] = [cut.boundary, cut.surface].map(|mesh| Mesh::of_poses(mesh, window));
     for k in 0..count {
         let layer = layers[(2 * k + 1) * layers.len() / (2 * count)];
         let at = grid.pose(layer * grid.count[0] * grid.count[1])[2];

@@ -7,6 +7,7 @@ use aspecta::domain;
 use aspecta::domain::boundary::{Face, Simplex};
 use aspecta::kinematics::modal::Constraint;
 use aspecta::num::without_turns;
+use aspecta::robot::Window;
 use std::f64::consts::PI;
 
 /// Segments or triangles over poses.
@@ -29,10 +30,11 @@ pub struct Plane {
     pub glued: bool,
 }
 
-impl<'a> From<&'a domain::Mesh> for Mesh<'a> {
-    fn from(mesh: &'a domain::Mesh) -> Self {
+impl<'a> Mesh<'a> {
+    /// A mesh of poses in a window.
+    pub fn of_poses(mesh: &'a domain::Mesh, window: &Window) -> Self {
         let vertices = mesh.vertices.iter().map(Vec::as_slice).collect();
-        Self { vertices, simplices: &mesh.simplices, turns: [false; 2] }
+        Self { vertices, simplices: &mesh.simplices, turns: [0, 1].map(|k| window.glued[k]) }
     }
 }
 
@@ -105,5 +107,37 @@ impl Plane {
     fn height(self, pose: &[f64]) -> f64 {
         let height = pose[2] - self.at;
         if self.glued { without_turns(height) } else { height }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A strip of triangles round a full turn of the first coordinate, cut at the middle of the third.
+    #[test]
+    fn lines_of_poses_go_on_across_the_seam_of_an_angle() {
+        let count = 12u32;
+        let pose = |i: u32| {
+            let roll = without_turns(0.3 + f64::from(i) * 2.0 * PI / f64::from(count));
+            vec![roll, 0.5, if i.is_multiple_of(2) { -1.0 } else { 1.0 }]
+        };
+        let face = Face::Of(Constraint::Det);
+        let corners = (0..count).map(|i| [i, (i + 1) % count, (i + 2) % count]);
+        let mesh = domain::Mesh {
+            vertices: (0..count).map(pose).collect(),
+            sources: Vec::new(),
+            simplices: corners.map(|corners| Simplex { corners, face }).collect(),
+        };
+        let plane = Plane { at: 0.0, glued: false };
+        let jump = |roll_is_glued: bool| -> f64 {
+            let window = Window { glued: vec![roll_is_glued, false, false], ..Window::default() };
+            let lines = Mesh::of_poses(&mesh, &window).lines(Kind::Parallel, Some(plane));
+            let gap = |pair: &[[f64; 2]]| (pair[1][0] - pair[0][0]).abs();
+            lines.iter().flat_map(|line| line.windows(2)).map(gap).fold(0.0, f64::max)
+        };
+        assert!(jump(true) < 1.0, "{}", jump(true));
+        // What is no angle does not wrap.
+        assert!(jump(false) > 2.0, "{}", jump(false));
     }
 }

@@ -85,12 +85,13 @@ fn hue(colour: &str) -> f64 {
 /// Where a plane meets the serial part of the boundary, a leg of the 3-RRR is stretched: |AᵢCᵢ| = 20.
 #[test]
 fn sections_lie_on_the_boundary() {
-    let boundary = domain::Mesh::from(&Boundary::new(&analysis(&three_rrr(), 7), 1, 48).unwrap());
+    let analysis = analysis(&three_rrr(), 7);
+    let boundary = domain::Mesh::from(&Boundary::new(&analysis, 1, 48).unwrap());
     let anchors = [[-10.0, -10.0], [10.0, -10.0], [0.0, 10.0_f64]];
     let attachments = [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0_f64]];
     for at in [-0.6, 0.25, 2.0_f64] {
         let plane = Plane { at, glued: true };
-        let lines = Mesh::from(&boundary).lines(Kind::Serial, Some(plane));
+        let lines = Mesh::of_poses(&boundary, &analysis.window).lines(Kind::Serial, Some(plane));
         assert!(lines.iter().flatten().count() > 10, "φ = {at}");
         for &[x, y] in lines.iter().flatten() {
             let length = |(a, c): (&[f64; 2], &[f64; 2])| {
