@@ -124,3 +124,75 @@ pub(crate) fn differ<const V: usize>(a: &Proved<V>, b: &Proved<V>) -> bool {
     let i = (0..V).fold(0, |best, k| if size(k) > size(best) { k } else { best });
     (0..V).any(|j| j != i && (x[i] * y[j] - x[j] * y[i]).excludes_zero())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const UNIT: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
+
+    /// x₁ x₀ = 0, x₂ x₀ = 0 and x₃² − square x₀² = 0, which (1, 0, 0, ±√square) have in common.
+    fn forms(square: Interval) -> Enclosed<4, 3> {
+        let (zero, half) = (Interval::point(0.0), Interval::point(0.5));
+        let mut forms = [[[zero; 4]; 4]; 3];
+        for k in [0, 1] {
+            (forms[k][0][k + 1], forms[k][k + 1][0]) = (half, half);
+        }
+        (forms[2][0][0], forms[2][3][3]) = (-square, Interval::point(1.0));
+        forms
+    }
+
+    fn near(square: Interval, x: [f64; 4]) -> Option<Proved<4>> {
+        let forms = forms(square);
+        let middle = |c: &[Interval; 4]| Point::real(c.map(Interval::mid));
+        let quadrics = Quadrics { forms: forms.each_ref().map(|form| form.each_ref().map(middle)) };
+        Proved::near(&forms, &quadrics, &Point::real(x).normalised())
+    }
+
+    #[test]
+    fn common_points_are_proved_and_told_apart() {
+        let quarter = Interval::point(0.25);
+        let [up, down] = [0.5, -0.5].map(|z| near(quarter, [1.0, 0.0, 0.0, z]).unwrap());
+        assert!(differ(&up, &down) && !differ(&up, &up) && up.is_rotation());
+        // From a little aside, too: the radius says how far.
+        let aside = near(quarter, [1.0, 1e-6, 0.0, 0.5]).unwrap();
+        assert!(aside.radius > 1e-7 && !differ(&aside, &up) && differ(&aside, &down));
+    }
+
+    #[test]
+    fn what_is_not_there_is_not_proved() {
+        for x in [UNIT, [0.0, 0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 0.05], [1.0, 2.0, 0.0, 0.5]] {
+            assert!(near(Interval::point(0.25), x).is_none(), "{x:?}");
+        }
+        // Double, nearly so, and not real at all.
+        for square in [0.0, 1e-18, -0.25] {
+            assert!(near(Interval::point(square), UNIT).is_none(), "{square}");
+        }
+        // One for some coefficients within the bounds, none or a double one for others.
+        assert!(near(Interval::new(-0.1, 0.6), [1.0, 0.0, 0.0, 0.5]).is_none());
+    }
+
+    /// Wherever a ball is proved to hold one of the two points it does, and not the other.
+    #[test]
+    fn balls_hold_one_point() {
+        let mut proved = 0;
+        for i in -300..=300 {
+            let z = f64::from(i) * 0.01;
+            let Some(ball) = near(Interval::point(0.25), [1.0, 0.0, 0.0, z]) else { continue };
+            let holds = |root: f64| {
+                let (x, y) = (ball.centre.re, [1.0, 0.0, 0.0, root]);
+                let scale: f64 = (0..4).map(|k| x[k] * y[k]).sum();
+                (0..4).all(|k| (y[k] / scale - x[k]).abs() <= ball.radius * (1.0 + 1e-9))
+            };
+            assert!(holds(0.5) != holds(-0.5), "{z}");
+            proved += 1;
+        }
+        assert!((50..500).contains(&proved), "{proved}");
+    }
+
+    #[test]
+    fn null_quaternions_are_no_rotations() {
+        let x = Point { re: [1.0, 0.0, 0.0, 0.0], im: [0.0, 1.0, 0.0, 0.0] };
+        assert!(!Proved { centre: x, radius: 0.0 }.is_rotation());
+    }
+}
