@@ -11,13 +11,10 @@ use aspecta::paving::{Budget, Control};
 use aspecta::robot::catalogue;
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
-use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 /// Pairs per robot.
 const PAIRS: usize = 300;
-
-static NEVER: AtomicBool = AtomicBool::new(false);
 
 /// A low-discrepancy sequence in [0, 1).
 fn share(i: usize, k: usize) -> f64 {
@@ -29,7 +26,7 @@ fn plan(c: &mut Criterion) {
         let robot = catalogue::find(name).expect("a robot of the catalogue");
         let mode: WorkingMode = mode.parse().expect("a mode");
         let budget = Budget { depth: Some(depth), ..Budget::default() };
-        let control = Control { cancelled: &NEVER, progress: &|_| {} };
+        let control = Control::unwatched();
         let options = Options { budget, modes: vec![mode], ..Options::default() };
         let analysis = analyze(&robot, &options, &control).expect("a bounded robot");
         let ranges = &analysis.window.ranges;
@@ -69,7 +66,7 @@ fn plan(c: &mut Criterion) {
     }
     let robot = catalogue::find("five-bar").expect("a robot of the catalogue");
     let budget = Budget { depth: Some(11), ..Budget::default() };
-    let control = Control { cancelled: &NEVER, progress: &|_| {} };
+    let control = Control::unwatched();
     let analysis = analyze(&robot, &Options { budget, ..Options::default() }, &control).expect("bounded");
     c.bench_function("five-bar/graph of working-mode changes", |b| b.iter(|| ModeGraph::new(&analysis)));
 }
@@ -88,7 +85,7 @@ fn free_body(c: &mut Criterion) {
         solutions.iter().any(|s| s.within_limits && s.det_a > 0.1)
     };
     let poses: Vec<Vec<f64>> = (1..).map(pose).filter(in_class).take(40).collect();
-    let control = Control { cancelled: &NEVER, progress: &|_| {} };
+    let control = Control::unwatched();
     let effort = Effort { samples: 20_000, seconds: None };
     let mut i = 0;
     c.bench_function("gough-stewart/plan, mean of pairs", |b| {

@@ -8,18 +8,10 @@ use aspecta::paving::{Budget, Control};
 use aspecta::robot::{Actuator, Leg, Platform, Robot, catalogue};
 use std::collections::{BTreeMap, HashSet, VecDeque};
 use std::f64::consts::{PI, TAU};
-use std::sync::atomic::AtomicBool;
-
-static NEVER: AtomicBool = AtomicBool::new(false);
 
 fn analyzed(robot: &Robot, depth: u32) -> Analysis {
     let budget = Budget { depth: Some(depth), ..Budget::default() };
-    analyze(
-        robot,
-        &Options { budget, ..Options::default() },
-        &Control { cancelled: &NEVER, progress: &|_| () },
-    )
-    .unwrap()
+    analyze(robot, &Options { budget, ..Options::default() }, &Control::unwatched()).unwrap()
 }
 
 fn five_bar() -> Robot {

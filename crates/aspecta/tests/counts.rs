@@ -9,17 +9,10 @@ use aspecta::paving::{Budget, Control, Stop};
 use aspecta::robot::{Leg, Platform, Robot, SliceError, catalogue};
 use aspecta::verify::verify;
 use split_mix::Random;
-use std::sync::atomic::AtomicBool;
 use sweep::{Finesse, FiveBar, MODES, Table};
 
-static NEVER: AtomicBool = AtomicBool::new(false);
-
-fn watched() -> Control<'static> {
-    Control { cancelled: &NEVER, progress: &|_| () }
-}
-
 fn analyzed(robot: &Robot, options: &Options) -> Analysis {
-    analyze(robot, options, &watched()).unwrap()
+    analyze(robot, options, &Control::unwatched()).unwrap()
 }
 
 fn find(name: &str) -> Robot {
@@ -92,7 +85,7 @@ fn robots_of_the_catalogue() {
 fn assert_verified(count: usize, name: &str, fix: &[(usize, f64)]) {
     let options = Options { fix: fix.to_vec(), certificate: true, ..Options::default() };
     let analysis = analyzed(&find(name), &options);
-    let verdict = verify(&analysis.certificate.unwrap(), &watched());
+    let verdict = verify(&analysis.certificate.unwrap(), &Control::unwatched());
     assert!(verdict.is_verified(), "{name}: {:?}", verdict.faults);
     let proved: (usize, Option<usize>) = (
         verdict.classes.iter().map(|c| c.proved.low).sum(),
@@ -218,7 +211,7 @@ fn brute_force(robot: &FiveBar) -> Option<Table> {
 /// Without a budget nearly all are certified within a second; this one is ample and the same everywhere.
 fn bounds(robot: &FiveBar) -> Option<Analysis> {
     let budget = Budget { boxes: Some(100_000), ..Budget::default() };
-    match analyze(&five_bar(robot), &Options { budget, ..Options::default() }, &watched()) {
+    match analyze(&five_bar(robot), &Options { budget, ..Options::default() }, &Control::unwatched()) {
         Ok(analysis) => Some(analysis),
         Err(AnalysisError::Slice(SliceError::Empty { .. })) => None,
         Err(error) => panic!("{robot:?}: {error}"),

@@ -4,22 +4,15 @@ use aspecta::aspect::{Analysis, DetSign, Options, analyze};
 use aspecta::domain::{DomainError, DomainOptions, Domains, domains};
 use aspecta::paving::{Budget, Control};
 use aspecta::robot::{Robot, catalogue};
-use std::sync::atomic::AtomicBool;
-
-static NEVER: AtomicBool = AtomicBool::new(false);
-
-fn watched() -> Control<'static> {
-    Control { cancelled: &NEVER, progress: &|_| () }
-}
 
 fn analyzed(robot: &Robot, depth: u32) -> Analysis {
     let budget = Budget { depth: Some(depth), ..Budget::default() };
-    analyze(robot, &Options { budget, ..Options::default() }, &watched()).unwrap()
+    analyze(robot, &Options { budget, ..Options::default() }, &Control::unwatched()).unwrap()
 }
 
 fn partitioned(analysis: &Analysis, id: usize, cells: usize) -> Domains {
     let options = DomainOptions { cells, samples: 20_000 };
-    domains(analysis, id, options, &watched()).unwrap()
+    domains(analysis, id, options, &Control::unwatched()).unwrap()
 }
 
 /// What must hold of any partition: Consequence 1 and Theorem 3, on what was computed.
@@ -129,9 +122,10 @@ fn what_has_no_domains_is_an_error() {
         budget: Budget { depth: Some(4), ..Budget::default() },
         ..Options::default()
     };
-    let slice = analyze(&robot, &fixed, &watched()).unwrap();
-    let of =
-        |analysis: &Analysis, id| domains(analysis, id, DomainOptions::default(), &watched()).map(|_| ());
+    let slice = analyze(&robot, &fixed, &Control::unwatched()).unwrap();
+    let of = |analysis: &Analysis, id| {
+        domains(analysis, id, DomainOptions::default(), &Control::unwatched()).map(|_| ())
+    };
     assert_eq!(of(&slice, 1), Err(DomainError::Slice));
     let analysis = analyzed(&catalogue::find("five-bar").unwrap(), 5);
     let count = analysis.aspects.low;

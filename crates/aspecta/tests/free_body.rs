@@ -6,14 +6,11 @@ use aspecta::paving::{Budget, Control};
 use aspecta::robot::{Actuator, Robot, catalogue};
 use nalgebra::{DMatrix, Rotation3, Vector3};
 use std::f64::consts::FRAC_PI_2;
-use std::sync::atomic::AtomicBool;
-
-static NEVER: AtomicBool = AtomicBool::new(false);
 
 fn analyzed(robot: &Robot, fix: &[(usize, f64)], modes: &[&str], budget: Budget) -> Analysis {
     let modes = modes.iter().map(|mode| mode.parse().unwrap()).collect();
     let options = Options { budget, fix: fix.to_vec(), modes, certificate: false };
-    analyze(robot, &options, &Control { cancelled: &NEVER, progress: &|_| () }).unwrap()
+    analyze(robot, &options, &Control::unwatched()).unwrap()
 }
 
 fn boxes(count: u64) -> Budget {
@@ -309,7 +306,7 @@ fn what_cannot_be_analysed_is_refused_with_a_slice_that_can() {
     let robot = robot("hexa");
     let attempt = |fix: &[(usize, f64)], certificate| {
         let options = Options { fix: fix.to_vec(), certificate, budget: boxes(100), ..Options::default() };
-        analyze(&robot, &options, &Control { cancelled: &NEVER, progress: &|_| () })
+        analyze(&robot, &options, &Control::unwatched())
     };
     let Err(AnalysisError::Dimension { dof: 6, free: 6, hold, .. }) = attempt(&[], false) else { panic!() };
     assert_eq!(hold, "roll=0,pitch=0,yaw=0");

@@ -8,26 +8,22 @@ use flate2::Compression;
 use flate2::read::GzDecoder;
 use flate2::write::GzEncoder;
 use std::io::{Read, Write};
-use std::sync::atomic::AtomicBool;
 
 #[path = "random/split_mix.rs"]
 mod split_mix;
 use split_mix::Random;
 
-static NEVER: AtomicBool = AtomicBool::new(false);
-
-fn watched() -> Control<'static> {
-    Control { cancelled: &NEVER, progress: &|_| () }
-}
-
 /// The map of all aspects of a robot.
 fn mapped(robot: &str, depth: u32, cells: usize) -> (Analysis, Map) {
     let budget = Budget { depth: Some(depth), ..Budget::default() };
     let options = Options { budget, ..Options::default() };
-    let analysis = analyze(&catalogue::find(robot).unwrap(), &options, &watched()).unwrap();
+    let analysis = analyze(&catalogue::find(robot).unwrap(), &options, &Control::unwatched()).unwrap();
     let sheet = |id: usize| {
         let options = DomainOptions { cells, samples: 1000 };
-        MappedAspect { domains: domains(&analysis, id, options, &watched()).unwrap(), surfaces: None }
+        MappedAspect {
+            domains: domains(&analysis, id, options, &Control::unwatched()).unwrap(),
+            surfaces: None,
+        }
     };
     let ids: Vec<usize> = analysis.classes.iter().flat_map(|c| c.aspects.iter().map(|a| a.id)).collect();
     let map = Map::new(&analysis, ids.into_iter().map(sheet).collect());
@@ -104,7 +100,7 @@ fn why_a_pose_is_nowhere() {
     let mut robot = catalogue::find("irb-360").unwrap();
     robot.window = vec![None, None, Some((-1500.0, -500.0))];
     let budget = Budget { depth: Some(4), ..Budget::default() };
-    let analysis = analyze(&robot, &Options { budget, ..Options::default() }, &watched()).unwrap();
+    let analysis = analyze(&robot, &Options { budget, ..Options::default() }, &Control::unwatched()).unwrap();
     let map = Map::new(&analysis, Vec::new());
     let mode = "---".parse().unwrap();
     let place = map.locate(&[0.0, 0.0, -1100.0], mode).unwrap();

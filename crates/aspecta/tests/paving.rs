@@ -16,12 +16,6 @@ use std::collections::BTreeSet;
 use std::f64::consts::{PI, TAU};
 use std::sync::atomic::AtomicBool;
 
-static NEVER: AtomicBool = AtomicBool::new(false);
-
-fn control() -> Control<'static> {
-    Control { cancelled: &NEVER, progress: &|_| () }
-}
-
 fn to_depth(depth: u32) -> Budget {
     Budget { depth: Some(depth), ..Budget::default() }
 }
@@ -288,7 +282,8 @@ fn analyzed(robot: &Robot) -> Option<Analysis> {
 fn analyzed_slice(robot: &Robot, fix: Vec<(usize, f64)>) -> Option<Analysis> {
     let depth = [10, 7, 4][robot.dof() - fix.len() - 1];
     // The windows of some random robots are empty.
-    analyze(robot, &Options { budget: to_depth(depth), fix, ..Options::default() }, &control()).ok()
+    analyze(robot, &Options { budget: to_depth(depth), fix, ..Options::default() }, &Control::unwatched())
+        .ok()
 }
 
 fn classes(paving: &Paving) -> impl Iterator<Item = (usize, WorkingMode, DetSign)> {
@@ -524,7 +519,7 @@ fn paved(robot: &Robot, depth: u32) -> Paving {
 
 fn paved_slice(robot: &Robot, depth: u32, fix: &[(usize, f64)]) -> Paving {
     let window = robot.slice(fix).unwrap();
-    Paving::new(robot, &window, &robot.working_modes(), &to_depth(depth), &control())
+    Paving::new(robot, &window, &robot.working_modes(), &to_depth(depth), &Control::unwatched())
 }
 
 /// Range of a box per axis in units of the finest cells.
@@ -661,7 +656,7 @@ fn a_box_budget_is_kept() {
     let window = robot.workspace_window().unwrap();
     for boxes in [0, 7, 8, 100, 1000, 5000] {
         let budget = Budget { boxes: Some(boxes), ..Budget::default() };
-        let paving = Paving::new(&robot, &window, &robot.working_modes(), &budget, &control());
+        let paving = Paving::new(&robot, &window, &robot.working_modes(), &budget, &Control::unwatched());
         assert!(paving.boxes <= boxes && paving.stop == Stop::Boxes);
         // Nothing is wasted: what is left does not pay for one more parent.
         assert!(boxes - paving.boxes < 8);
@@ -672,7 +667,8 @@ fn a_box_budget_is_kept() {
 #[test]
 fn depth_and_resolution_are_honoured() {
     let robot = catalogue::find("five-bar").unwrap();
-    let run = |budget| analyze(&robot, &Options { budget, ..Options::default() }, &control()).unwrap();
+    let run =
+        |budget| analyze(&robot, &Options { budget, ..Options::default() }, &Control::unwatched()).unwrap();
     let analysis = run(to_depth(6));
     assert_eq!((analysis.run.depth, analysis.run.stop), (6, Stop::Resolution));
     let analysis = run(Budget { resolution: Some(0.5), ..Budget::default() });
@@ -691,7 +687,7 @@ fn a_resolution_does_not_stop_a_robot_without_lengths() {
     let robot = catalogue::find("spherical-3-rrr").unwrap();
     let window = robot.workspace_window().unwrap();
     let budget = Budget { resolution: Some(0.1), boxes: Some(2000), ..Budget::default() };
-    let paving = Paving::new(&robot, &window, &robot.working_modes(), &budget, &control());
+    let paving = Paving::new(&robot, &window, &robot.working_modes(), &budget, &Control::unwatched());
     assert_eq!(paving.stop, Stop::Boxes);
 }
 

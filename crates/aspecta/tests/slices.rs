@@ -6,14 +6,11 @@ use aspecta::robot::{Leg, Platform, Robot, SliceError, catalogue};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-use std::sync::atomic::AtomicBool;
-
-static NEVER: AtomicBool = AtomicBool::new(false);
 
 fn attempt(robot: &Robot, depth: u32, fix: &[(usize, f64)]) -> Result<Analysis, AnalysisError> {
     let budget = Budget { depth: Some(depth), ..Budget::default() };
     let options = Options { budget, fix: fix.to_vec(), ..Options::default() };
-    analyze(robot, &options, &Control { cancelled: &NEVER, progress: &|_| () })
+    analyze(robot, &options, &Control::unwatched())
 }
 
 fn analyzed(robot: &Robot, depth: u32, fix: &[(usize, f64)]) -> Analysis {
@@ -341,7 +338,7 @@ fn slices_do_not_depend_on_place_direction_unit_and_frame() {
     let counts = |a: &Analysis| a.classes.iter().map(|c| (c.low, c.high)).collect::<Vec<_>>();
     let analyzed = |robot: &Robot, fix: &[(usize, f64)]| {
         let options = Options { fix: fix.to_vec(), ..Options::default() };
-        analyze(robot, &options, &Control { cancelled: &NEVER, progress: &|_| () }).unwrap()
+        analyze(robot, &options, &Control::unwatched()).unwrap()
     };
     let area = |a: &Analysis| a.classes.iter().map(|c| c.measure).sum::<f64>();
     let most = |a: &Analysis| a.classes.iter().map(|c| c.measure + c.undecided).sum::<f64>();
@@ -417,7 +414,7 @@ fn a_slice_says_what_was_held() {
 fn budgets_know_the_coordinates_that_vary() {
     let run = |fix: &[(usize, f64)], budget: Budget| {
         let options = Options { budget, fix: fix.to_vec(), ..Options::default() };
-        let control = Control { cancelled: &NEVER, progress: &|_| () };
+        let control = Control::unwatched();
         analyze(&robot("3-rrr"), &options, &control).unwrap().run
     };
     assert_eq!(run(&[(1, -5.0), (2, 0.3)], Budget::default()).depth, 16);

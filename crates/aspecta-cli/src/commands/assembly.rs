@@ -1,13 +1,16 @@
 //! `aspecta assembly`: the poses of a joint vector by aspects, and how to change from one to another.
 
 use super::joined;
+use super::numbered::{self, IN_ONE, Numbered, list};
 use super::planning::{self, Planned, Planning, plan_over_roadmap};
-use super::queries::{Labels, det_a_unit};
+use super::queries::Labels;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
-use crate::output::{Align, FORMAT_VERSION, Format, Table, exact, json, note, number};
+use crate::output::{FORMAT_VERSION, Format, json, note, number};
 use aspecta::kinematics::{DirectSolutions, WorkingMode};
-use aspecta::motion::assembly::{AssemblyModes, CuspRound, Fold, assembly_modes, cusps_round, folds};
+use aspecta::motion::assembly::{
+    AssemblyMode, AssemblyModes, CuspRound, Fold, assembly_modes, cusps_round, folds,
+};
 use aspecta::motion::explore::join_solutions;
 use aspecta::motion::modes::{Configuration, ModeGraph, NoRoute, Route};
 use aspecta::motion::plan::{Plan, PlanOptions, Planner};
@@ -163,7 +166,10 @@ impl Assembly {
                     let (format_version, robot) = (FORMAT_VERSION, robot.name.as_str());
                     json(out, &Document { format_version, robot, found: &found.modes })?;
                 }
-                Format::Csv => print_csv(out, robot, &found.modes)?,
+                Format::Csv => {
+                    let id = |s: &AssemblyMode| s.aspect.map(|id| id.to_string());
+                    numbered::print_csv(out, robot, "aspect", &numbered(&found.modes, id))?;
+                }
                 Format::Table => print_list(out, robot, &found.modes, self.planning.shown.deg)?,
             }
             return Ok(Answer::from(found.modes.complete && !found.modes.solutions.is_empty()));
@@ -178,47 +184,30 @@ impl Assembly {
     }
 }
 
+/// Each with a group, as `group` names it.
+fn numbered(found: &AssemblyModes, group: impl Fn(&AssemblyMode) -> Option<String>) -> Vec<Numbered<'_>> {
+    let solutions = found.solutions.iter();
+    solutions.map(|s| Numbered { number: s.number, solution: &s.solution, group: group(s) }).collect()
+}
+
 fn print_list(
     out: &mut dyn Write,
     robot: &Robot,
     found: &AssemblyModes,
     degrees: bool,
 ) -> Result<(), Failure> {
-    let (pose, joints) = (Labels::pose(robot, degrees), Labels::joints(robot, degrees));
-    let count = found.solutions.len();
-    let all = if found.complete { "proved to be all" } else { "not proved to be all" };
-    writeln!(out, "{}: {count} direct solutions at {} ({all})", robot.name, joints.sentence(&found.q))?;
-    if count == 0 {
-        return Ok(());
-    }
-    let right = |name: String| (name, Align::Right);
-    let headings = [right("solution".into())].into_iter().chain(pose.headings().map(right));
-    let last = [
-        ("mode".to_owned(), Align::Left),
-        right(format!("det A{}", det_a_unit(robot))),
-        right("aspect".into()),
-    ];
-    let mut table = Table::new(headings.chain(last));
-    for s in &found.solutions {
-        let aspect = match (s.rank, s.solution.within_limits) {
-            (Some((k, of)), _) => format!("{k} of {of}"),
-            (None, false) => "beyond limits".into(),
-            (None, true) => "undecided".into(),
-        };
-        let last = [s.solution.mode.to_string(), number(s.solution.det_a), aspect];
-        table.row([s.number.to_string()].into_iter().chain(pose.numbers(&s.solution.pose)).chain(last));
-    }
-    write!(out, "{table}")?;
+    let rank = |s: &AssemblyMode| s.rank.map(|(k, of)| format!("{k} of {of}"));
+    let at = (&found.q[..], found.complete);
+    numbered::print_table(out, robot, at, "aspect", &numbered(found, rank), degrees)?;
     for shared in &found.shared {
-        let list = shared.solutions.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
         let word = if shared.certified {
-            "lie in one aspect: they can be changed into one another without a singularity (certified)"
+            IN_ONE
         } else {
             "may lie in one aspect, which is not proved to be one in boxes as fine as these, and no path was found that would join them"
         };
-        writeln!(out, "solutions {list} {word}")?;
+        writeln!(out, "solutions {} {word}", list(&shared.solutions))?;
     }
-    if found.shared.is_empty() && count > 1 {
+    if found.shared.is_empty() && found.solutions.len() > 1 {
         let known = found.solutions.iter().all(|s| s.aspect.is_some());
         let word = if known {
             "no two of them lie in one aspect (certified)"
@@ -227,21 +216,6 @@ fn print_list(
         };
         writeln!(out, "{word}")?;
     }
-    Ok(())
-}
-
-fn print_csv(out: &mut dyn Write, robot: &Robot, found: &AssemblyModes) -> Result<(), Failure> {
-    let mut csv = csv::Writer::from_writer(out);
-    let names = Columns::pose(robot).names;
-    let last = ["mode", "det_a", "aspect"].map(String::from);
-    csv.write_record(["solution".to_owned()].into_iter().chain(names).chain(last))?;
-    for s in &found.solutions {
-        let aspect = s.aspect.map_or(String::new(), |id| id.to_string());
-        let last = [s.solution.mode.to_string(), exact(s.solution.det_a), aspect];
-        let pose = s.solution.pose.iter().map(|x| exact(*x));
-        csv.write_record([s.number.to_string()].into_iter().chain(pose).chain(last))?;
-    }
-    csv.flush()?;
     Ok(())
 }
 

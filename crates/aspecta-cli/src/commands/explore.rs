@@ -6,7 +6,6 @@ use super::watch::watched;
 use crate::failure::{Answer, Failure};
 use crate::input;
 use crate::output::{Align, FORMAT_VERSION, Table, brief, json, note};
-use aspecta::kinematics::WorkingMode;
 use aspecta::motion::explore::{End, Exploration, ExploredClass, explore};
 use aspecta::paving::Budget;
 use aspecta::robot::Robot;
@@ -62,8 +61,7 @@ struct Document<'a> {
 impl Explore {
     pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
         let robot = input::robot(&self.robot)?;
-        let modes = self.mode.iter().map(|text| input::mode(&robot, text));
-        let modes: Vec<WorkingMode> = modes.collect::<Result<_, _>>()?;
+        let modes = input::modes(&robot, &self.mode)?;
         let effort = budget::effort(self.budget, self.samples)?;
         let found = watched(self.threads, |control| explore(&robot, &modes, &effort, control))??;
         if found.classes.iter().any(|class| class.end == End::Cancelled) {

@@ -22,6 +22,7 @@ mod joined;
 mod locate;
 mod mapping;
 mod modes;
+mod numbered;
 mod path_verdict;
 mod places;
 mod plan;

@@ -45,16 +45,9 @@ fn progress_bar() -> ProgressBar {
     bar
 }
 
-/// Limits the work to a number of threads. Their stacks are deep enough for kernels with six degrees of freedom.
+/// Limits the work to a number of threads.
 fn limit(threads: Option<u16>) -> Result<(), Failure> {
-    let pool = rayon::ThreadPoolBuilder::new().stack_size(64 << 20);
-    match threads {
-        // There may be one already: then work goes on in it.
-        None => _ = pool.build_global(),
-        Some(threads) => pool
-            .num_threads(threads.into())
-            .build_global()
-            .map_err(|e| Failure::Input(format!("--threads {threads}: {e}")))?,
-    }
-    Ok(())
+    let Some(threads) = threads else { return Ok(()) };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
+    pool.map_err(|e| Failure::Input(format!("--threads {threads}: {e}")))
 }

@@ -3,6 +3,7 @@
 //! Nothing is divided, so all of it holds for enclosures.
 
 use crate::num::{Interval, Scalar};
+use arrayvec::ArrayVec;
 
 /// Sets of up to 6 columns, one bit each.
 const SETS: usize = 64;
@@ -67,7 +68,8 @@ pub fn determinant<T: Scalar, const N: usize>(m: &[[T; N]; N]) -> T {
 ///
 /// By Laplace: the minors of the rows above row j with those of the rows below it, over all ways to share the other columns.
 pub fn cofactors<T: Scalar, const N: usize>(m: &[[T; N]; N]) -> [[T; N]; N] {
-    let mut below = vec![Minors::none()];
+    let mut below = ArrayVec::<Minors<T, N>, N>::new();
+    below.push(Minors::none());
     // Rows from the last up: their minors are those of the rows in order but for the sign of the reversal.
     for row in m.iter().skip(1).rev() {
         below.push(below[below.len() - 1].with(row));

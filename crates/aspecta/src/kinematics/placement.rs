@@ -134,6 +134,21 @@ fn spatial<T: Scalar, const D: usize>(turn: impl Fn(usize) -> (T, T), first: usi
     std::array::from_fn(|i| std::array::from_fn(|j| rows[i][j]))
 }
 
+/// The angles of R = R_z(yaw) R_y(pitch) R_x(roll), for D = 3. At pitch = ±90°, where only roll ∓ yaw is determined, yaw is 0.
+pub fn roll_pitch_yaw<const D: usize>(r: &[[f64; D]; D]) -> [f64; 3] {
+    let low = D - 1;
+    let level = r[0][0].hypot(r[1][0]);
+    let pitch = (-r[low][0]).atan2(level);
+    if level < 4.0 * f64::EPSILON {
+        return [(-r[1][low]).atan2(r[1][1]), pitch, 0.0];
+    }
+    // With yaw undone the second row is (0, cos roll, −sin roll): accurate near the pole too, where yaw is not.
+    let yaw = r[1][0].atan2(r[0][0]);
+    let (s, c) = yaw.sin_cos();
+    let row = |k: usize| c * r[1][k] - s * r[0][k];
+    [(-row(low)).atan2(row(1)), pitch, yaw]
+}
+
 /// A base vector in the leg's frame.
 pub fn into_frame<T: Scalar, const D: usize>(leg: &Leg, v: &[T; D]) -> [T; D] {
     each!(|k| dot_constant(&leg.frame[k][..D], v))

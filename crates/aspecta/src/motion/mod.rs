@@ -7,6 +7,7 @@ pub mod explore;
 pub mod follow;
 pub mod modes;
 pub mod plan;
+mod search;
 mod spline;
 pub mod time;
 pub mod traverse;

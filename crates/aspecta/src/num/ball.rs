@@ -4,11 +4,11 @@ use super::{Interval, Scalar};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Half the distance from 1 to the next double: a result rounded to nearest is off by at most this share of itself.
-const UNIT: f64 = f64::EPSILON / 2.0;
+pub(super) const UNIT: f64 = f64::EPSILON / 2.0;
 /// Makes up for the roundings of a radius itself: at most six operations, each losing at most `UNIT`.
 const ENLARGE: f64 = 1.0 + 8.0 * f64::EPSILON;
 /// Far above all that underflow can lose, and still a normal double, so that it slows nothing down.
-const TINY: f64 = 1e-290;
+pub(super) const TINY: f64 = 1e-290;
 
 /// All x with |x − mid| ≤ rad.
 ///

@@ -1,5 +1,6 @@
 //! Complex numbers with an error bound: discs.
 
+use super::ball::{TINY, UNIT};
 use super::{Ball, Interval};
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -17,12 +18,8 @@ pub struct Disc {
     pub rad: f64,
 }
 
-/// Half the distance from 1 to the next double, u.
-const UNIT: f64 = f64::EPSILON / 2.0;
 /// Makes up for the roundings of a radius itself: at most eight operations on numbers ≥ 0, each losing at most the share u.
 const ENLARGE: f64 = 1.0 + 16.0 * f64::EPSILON;
-/// Far above all that underflow can lose.
-const TINY: f64 = 1e-290;
 
 impl Disc {
     /// The centre alone.

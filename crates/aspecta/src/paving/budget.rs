@@ -82,6 +82,14 @@ pub struct Control<'a> {
     pub progress: &'a (dyn Fn(Progress) + Sync),
 }
 
+impl Control<'static> {
+    /// For work that no one watches: progress is not shown and nothing stops it.
+    pub fn unwatched() -> Self {
+        static NEVER: AtomicBool = AtomicBool::new(false);
+        Self { cancelled: &NEVER, progress: &|_| {} }
+    }
+}
+
 impl Control<'_> {
     pub(crate) fn is_cancelled(&self) -> bool {
         self.cancelled.load(Ordering::Relaxed)

@@ -112,14 +112,14 @@ pub(super) fn unit(v: &[Interval; 3]) -> Option<[Interval; 3]> {
 ///
 /// v is the direction of axis × zero and u that of (axis × zero) × axis: what lies along the axis cancels
 /// before it is computed, and small integers stay exact.
-pub(super) fn crank_frame(axis: &[Interval; 3], zero: &[Interval; 3]) -> Option<Frame> {
+pub(crate) fn crank_frame(axis: &[Interval; 3], zero: &[Interval; 3]) -> Option<Frame> {
     let side = cross(axis, zero);
     Some([unit(&cross(&side, axis))?, unit(&side)?, unit(axis)?])
 }
 
 /// A right-handed frame whose u is along `direction`; in the plane v is u turned by +90°. `None` if
 /// `direction` is zero.
-pub(super) fn rail_frame(direction: &[Interval; 3], space: usize) -> Option<Frame> {
+pub(crate) fn rail_frame(direction: &[Interval; 3], space: usize) -> Option<Frame> {
     let d = direction;
     if space == 2 {
         let u = unit(d)?;

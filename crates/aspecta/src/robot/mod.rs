@@ -13,6 +13,7 @@ mod slice;
 mod window;
 
 pub use file::{FileError, Mistake, Problem};
+pub(crate) use frame::{crank_frame, rail_frame};
 pub use leg::{Actuator, BASE_FRAME, Frame, Leg, Limit, point};
 pub use platform::{Coordinate, Platform};
 pub use slice::SliceError;

@@ -16,13 +16,6 @@ use aspecta::robot::{Robot, catalogue};
 use nalgebra::{DMatrix, DVector, Rotation3, Vector3};
 use split_mix::Random;
 use std::f64::consts::PI;
-use std::sync::atomic::AtomicBool;
-
-static NEVER: AtomicBool = AtomicBool::new(false);
-
-fn control() -> Control<'static> {
-    Control { cancelled: &NEVER, progress: &|_| {} }
-}
 
 fn robot(name: &str) -> Robot {
     catalogue::find(name).unwrap()
@@ -121,7 +114,7 @@ fn effort(samples: usize) -> Effort {
 }
 
 fn planned(robot: &Robot, ends: [&[f64]; 2], options: &PlanOptions) -> Result<Plan, NoWay> {
-    plan(robot, robot.working_modes()[0], ends, options, &effort(20_000), &control())
+    plan(robot, robot.working_modes()[0], ends, options, &effort(20_000), &Control::unwatched())
 }
 
 /// Non-singular changes of assembly mode: all direct solutions with one sign of det A lie in one aspect, 20 of each.
@@ -131,7 +124,7 @@ fn dietmaiers_forty_solutions_lie_in_two_aspects() {
     let solutions = direct(&robot, &DIETMAIER, 3000);
     assert_eq!(solutions.len(), 40);
     let found = DirectSolutions { solutions: solutions.clone(), complete: false };
-    let joined = join_solutions(&robot, &DIETMAIER, found, &effort(20_000), &control()).unwrap();
+    let joined = join_solutions(&robot, &DIETMAIER, found, &effort(20_000), &Control::unwatched()).unwrap();
     assert_eq!(joined.classes.len(), 2);
     for class in &joined.classes {
         assert_eq!((class.end, class.joined.len()), (End::Joined, 1), "{class:?}");
@@ -219,9 +212,14 @@ fn a_window_is_not_left() {
     let mut joined = 0;
     for pair in poses.windows(2) {
         let ends = [&pair[0][..], &pair[1]];
-        let Ok(plan) =
-            plan(&robot, robot.working_modes()[0], ends, &PlanOptions::default(), &effort(4000), &control())
-        else {
+        let Ok(plan) = plan(
+            &robot,
+            robot.working_modes()[0],
+            ends,
+            &PlanOptions::default(),
+            &effort(4000),
+            &Control::unwatched(),
+        ) else {
             continue;
         };
         assert_sound(&robot, &plan, ends);
@@ -237,7 +235,14 @@ fn what_is_not_joined_within_the_budget_is_said_to_be_undecided() {
     let robot = robot("gough-stewart");
     let poses = poses(&robot, -1.0, 0.001, 2);
     let mode = robot.working_modes()[0];
-    let none = plan(&robot, mode, [&poses[0], &poses[1]], &PlanOptions::default(), &effort(0), &control());
+    let none = plan(
+        &robot,
+        mode,
+        [&poses[0], &poses[1]],
+        &PlanOptions::default(),
+        &effort(0),
+        &Control::unwatched(),
+    );
     let Err(NoWay::Refused(refusal @ Refusal::NotJoined { samples: 0, .. })) = none else {
         panic!("{none:?}")
     };
@@ -250,7 +255,7 @@ fn what_is_explored_is_proved() {
     for (name, mode) in [("gough-stewart", "------"), ("hexa", "-+-++-")] {
         let robot = robot(name);
         let mode: WorkingMode = mode.parse().unwrap();
-        let found = explore(&robot, &[mode], &effort(160), &control()).unwrap();
+        let found = explore(&robot, &[mode], &effort(160), &Control::unwatched()).unwrap();
         assert_eq!((found.at_least, found.classes.len()), (2, 2));
         for class in &found.classes {
             let demand = Demand::class(mode, class.det_a.factor());
@@ -282,7 +287,7 @@ fn results_do_not_depend_on_threads() {
     let mode = hexa.working_modes()[5];
     let work = || {
         let plan = planned(&stewart, [&poses[0], &poses[1]], &PlanOptions::default()).unwrap();
-        (plan, explore(&hexa, &[mode], &effort(96), &control()).unwrap())
+        (plan, explore(&hexa, &[mode], &effort(96), &Control::unwatched()).unwrap())
     };
     let with =
         |count: usize| rayon::ThreadPoolBuilder::new().num_threads(count).build().unwrap().install(work);
@@ -291,11 +296,14 @@ fn results_do_not_depend_on_threads() {
 
 #[test]
 fn other_robots_are_refused() {
-    let refused = explore(&robot("five-bar"), &[], &effort(1), &control());
+    let refused = explore(&robot("five-bar"), &[], &effort(1), &Control::unwatched());
     assert!(matches!(refused, Err(ExploreError::NotFree { .. })));
-    let refused = explore(&robot("hexa"), &["++".parse().unwrap()], &effort(1), &control());
+    let refused = explore(&robot("hexa"), &["++".parse().unwrap()], &effort(1), &Control::unwatched());
     assert!(matches!(refused, Err(ExploreError::Mode { .. })));
     let mut unbounded = robot("gough-stewart");
     unbounded.legs.iter_mut().for_each(|leg| leg.limits.clear());
-    assert!(matches!(explore(&unbounded, &[], &effort(1), &control()), Err(ExploreError::Unbounded(_))));
+    assert!(matches!(
+        explore(&unbounded, &[], &effort(1), &Control::unwatched()),
+        Err(ExploreError::Unbounded(_))
+    ));
 }

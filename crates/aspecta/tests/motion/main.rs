@@ -16,13 +16,6 @@ use aspecta::paving::{Budget, Control};
 use aspecta::robot::{Robot, catalogue};
 use random::Random;
 use std::f64::consts::TAU;
-use std::sync::atomic::AtomicBool;
-
-static NEVER: AtomicBool = AtomicBool::new(false);
-
-fn control() -> Control<'static> {
-    Control { cancelled: &NEVER, progress: &|_| {} }
-}
 
 fn robot(name: &str) -> Robot {
     catalogue::find(name).unwrap()
@@ -36,7 +29,7 @@ fn mode(signs: &str) -> WorkingMode {
 fn analysed(robot: &Robot, depth: u32, modes: &[&str]) -> Analysis {
     let budget = Budget { depth: Some(depth), ..Budget::default() };
     let modes = modes.iter().map(|signs| mode(signs)).collect();
-    analyze(robot, &Options { budget, modes, ..Options::default() }, &control()).unwrap()
+    analyze(robot, &Options { budget, modes, ..Options::default() }, &Control::unwatched()).unwrap()
 }
 
 /// A pose that the robot can take in a mode, within its limits; `None` if a good many draws find none.

@@ -12,28 +12,13 @@ use super::bernstein::{Arc, Piece, isolate};
 use super::projective::Point;
 use super::turning_body::Cone;
 use crate::num::{Ball, Interval, Scalar, dot};
+use crate::robot::{Frame, crank_frame, rail_frame};
 use arrayvec::ArrayVec;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 
 /// Bernstein coefficients of degree 2, on half a circle, of what is affine in cos a and sin a: times (1 − τ)² + τ², with
 /// cos a = 2(1 − τ)τ / …, sin a = (τ² − (1 − τ)²) / ….
 type Quadratic = [Ball; 3];
-
-/// An orthonormal frame whose first vector is the given unit vector; `None` next to the axis it is crossed with.
-fn frame<T: Scalar>(first: &[T; 3], axis: usize) -> Option<[[T; 3]; 3]>
-where
-    Interval: From<T>,
-{
-    let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
-    let mut across = [T::zero(); 3];
-    (across[i], across[j]) = (first[j], -first[i]);
-    let norm = dot(&across, &across).sqrt();
-    (Interval::from(norm).lo > 0.1).then(|| {
-        let second = across.map(|x| x / norm);
-        let minor = |i: usize, j: usize| first[i] * second[j] - first[j] * second[i];
-        [*first, second, [minor(1, 2), minor(2, 0), minor(0, 1)]]
-    })
-}
 
 /// The lines of legs 2 and 3 over half a circle of a: (α, β, γ).
 type Lines = [[Quadratic; 3]; 2];
@@ -46,13 +31,18 @@ struct Sweep {
 }
 
 impl Sweep {
-    fn new(first: &Cone, axis: usize) -> Option<Self> {
+    /// With a = 0 where a base vector says; `None` if that one is along w₁.
+    fn new(first: &Cone, zero: usize) -> Option<Self> {
         let cos = Ball::constant(first.cosine);
-        let sine = (Ball::point(1.0) - cos.square()).sqrt();
-        let of = |v: &[Interval; 3], axis| frame(&v.map(Ball::constant), axis);
-        // Of the platform any frame will do.
-        let platform = (0..3).find_map(|k| of(&first.v, k))?;
-        Some(Self { base: of(&first.w, axis)?, platform, tilt: [cos, sine] })
+        let mut direction = [Interval::point(0.0); 3];
+        direction[zero] = Interval::point(1.0);
+        let [u, v, w] = crank_frame(&first.w, &direction)?;
+        let balls = |frame: Frame| frame.map(|axis| axis.map(Ball::constant));
+        Some(Self {
+            base: balls([w, u, v]),
+            platform: balls(rail_frame(&first.v, 3)?),
+            tilt: [cos, (Ball::point(1.0) - cos.square()).sqrt()],
+        })
     }
 
     /// On the half circle about a = 0, or about a = π.
@@ -131,7 +121,7 @@ pub(super) fn sweep(cones: &[Cone; 3]) -> Option<ArrayVec<Point<4>, 16>> {
     (0..3).find_map(|first| {
         let order = [first, (first + 1) % 3, (first + 2) % 3].map(|k| cones[k]);
         // Cut elsewhere if a zero sits on a cut.
-        (0..2).find_map(|axis| all_on(&order, &Sweep::new(&order[0], axis)?))
+        (0..2).find_map(|zero| all_on(&order, &Sweep::new(&order[0], zero)?))
     })
 }
 

@@ -2,10 +2,10 @@
 
 use super::certify::certify;
 use super::locked::{Locked, linearised, polish, rounds_to_zero, units};
-use super::projective::{Point, Problem, roll_pitch_yaw, rotation};
+use super::projective::{Point, Problem, rotation};
 use super::{Roots, SelfMotion, cone, free_body, turning_body};
 use crate::kinematics::SINGULAR;
-use crate::kinematics::placement::Placement;
+use crate::kinematics::placement::{Placement, roll_pitch_yaw};
 use crate::robot::Platform;
 use nalgebra::{DMatrix, DVector, Dyn, SVD};
 

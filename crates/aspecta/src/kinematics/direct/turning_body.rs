@@ -48,7 +48,7 @@ impl Cone {
 }
 
 pub(super) fn problem(cones: &[Cone; 3]) -> Problem<'static, 4, 3> {
-    Problem { start: &START.0, points: &START.1, forms: cones.each_ref().map(Cone::form) }
+    Problem::new(&START.0, &START.1, cones.each_ref().map(Cone::form))
 }
 
 /// γₖ (eₖ² − e₀²) = 0, k = 1, 2, 3, which (1, ±1, ±1, ±1) solve. The γₖ are any complex numbers.

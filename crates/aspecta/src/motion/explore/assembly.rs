@@ -3,7 +3,7 @@
 use super::body::Pose;
 use super::growth::Growth;
 use super::territory::Territory;
-use super::{Effort, End, ExploreError, roaming};
+use super::{Effort, End, ExploreError, classes_of, roaming};
 use crate::aspect::DetSign;
 use crate::kinematics::demand::Demand;
 use crate::kinematics::{DirectSolutions, Solution, WorkingMode};
@@ -69,12 +69,9 @@ pub fn join_solutions(
     let mut modes: Vec<WorkingMode> = solutions.iter().map(|s| s.mode).collect();
     modes.sort_unstable();
     modes.dedup();
-    let kinds = modes.iter().flat_map(|&mode| [(mode, DetSign::Positive), (mode, DetSign::Negative)]);
-    let kinds: Vec<_> = kinds.collect();
+    let kinds = classes_of(&modes);
     let join = |(k, &kind): (usize, &(WorkingMode, DetSign))| {
-        // As in an exploration, each has its part of the time.
-        let part = (k + 1) as f64 / kinds.len() as f64;
-        let effort = Effort { seconds: effort.seconds.map(|most| most * part), ..*effort };
+        let effort = effort.part(k, kinds.len());
         join_class(robot, &window, kind, &solutions, |growth| growth.run(&effort, begin, control))
     };
     let classes = kinds.iter().enumerate().filter_map(join).collect();

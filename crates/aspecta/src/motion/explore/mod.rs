@@ -47,6 +47,18 @@ pub struct Effort {
     pub seconds: Option<f64>,
 }
 
+impl Effort {
+    /// What the k-th (from 0) of `count` tasks may take: all samples, and its part of the time with what those before it left of theirs.
+    fn part(self, k: usize, count: usize) -> Self {
+        Self { seconds: self.seconds.map(|most| most * (k + 1) as f64 / count as f64), ..self }
+    }
+}
+
+/// The classes of some modes, mode by mode, + before −.
+fn classes_of(modes: &[WorkingMode]) -> Vec<(WorkingMode, DetSign)> {
+    modes.iter().flat_map(|&mode| [(mode, DetSign::Positive), (mode, DetSign::Negative)]).collect()
+}
+
 impl Default for Effort {
     fn default() -> Self {
         Self { samples: 4096, seconds: None }
@@ -152,12 +164,9 @@ pub fn explore(
         return Err(ExploreError::Mode { mode, robot: robot.name.clone() });
     }
     let modes = if modes.is_empty() { &known[..] } else { modes };
-    let classes = modes.iter().flat_map(|&mode| [(mode, DetSign::Positive), (mode, DetSign::Negative)]);
-    let (classes, begin) = (classes.collect::<Vec<_>>(), Instant::now());
+    let (classes, begin) = (classes_of(modes), Instant::now());
     let explored = |(k, &(mode, det_a)): (usize, &(WorkingMode, DetSign))| {
-        // Each class has its part of the time, and what those before it left of theirs.
-        let part = (k + 1) as f64 / classes.len() as f64;
-        let effort = Effort { seconds: effort.seconds.map(|most| most * part), ..*effort };
+        let effort = effort.part(k, classes.len());
         let demand = Demand::class(mode, det_a.factor());
         let mut growth = Growth::new(Territory::new(robot, &window, &demand, 0.0), &[]);
         let end = growth.run(&effort, begin, control);

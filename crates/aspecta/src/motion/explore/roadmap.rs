@@ -3,8 +3,7 @@
 use super::body::{Body, Pose};
 use super::territory::Territory;
 use crate::aspect::UnionFind;
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
+use crate::motion::search::cheapest_way;
 
 /// Poses of one class of aspects and proved straight segments between them.
 #[derive(Default)]
@@ -116,56 +115,14 @@ impl Roadmap {
 
     /// The shortest way between two spots, both included.
     pub fn way(&self, territory: &Territory<'_>, from: u32, to: u32) -> Option<Vec<u32>> {
-        let mut best = vec![(f64::INFINITY, u32::MAX); self.len()];
-        best[from as usize] = (0.0, from);
-        let mut open = BinaryHeap::from([Open { length: 0.0, spot: from }]);
-        while let Some(Open { length, spot }) = open.pop() {
-            if spot == to {
-                let mut way = vec![to];
-                while way[way.len() - 1] != from {
-                    way.push(best[way[way.len() - 1] as usize].1);
-                }
-                way.reverse();
-                return Some(way);
-            }
-            if length > best[spot as usize].0 {
-                continue;
-            }
-            let here = self.spot(spot);
-            for &next in &here.around {
-                let length = length + territory.distance(&here.body, &self.spot(next).body);
-                if length < best[next as usize].0 {
-                    best[next as usize] = (length, spot);
-                    open.push(Open { length, spot: next });
-                }
-            }
-        }
-        None
+        let length = |a: u32, b: u32| territory.distance(&self.spot(a).body, &self.spot(b).body);
+        cheapest_way(
+            self.len(),
+            [from, to],
+            |_| 0.0,
+            |spot, visit| {
+                self.spot(spot).around.iter().for_each(|&next| visit(next, length(spot, next)));
+            },
+        )
     }
 }
-
-/// A spot to go on from, the nearest first.
-struct Open {
-    length: f64,
-    spot: u32,
-}
-
-impl Ord for Open {
-    fn cmp(&self, other: &Self) -> Ordering {
-        other.length.total_cmp(&self.length).then(other.spot.cmp(&self.spot))
-    }
-}
-
-impl PartialOrd for Open {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Open {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Open {}

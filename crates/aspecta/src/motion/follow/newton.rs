@@ -2,7 +2,7 @@
 
 use super::tube::{Model, Turn};
 use crate::kinematics::leg::equation_turned;
-use crate::kinematics::placement::{Placement, leg_gradient_turned, wrench};
+use crate::kinematics::placement::{Placement, leg_gradient_turned, roll_pitch_yaw, wrench};
 use crate::robot::Platform;
 use nalgebra::{SMatrix, SVector};
 
@@ -104,15 +104,6 @@ pub(super) fn moved<const D: usize, const N: usize>(
         }
     }
     to
-}
-
-/// The angles of R = R_z(yaw) R_y(pitch) R_x(roll).
-fn roll_pitch_yaw<const D: usize>(r: &[[f64; D]; D]) -> [f64; 3] {
-    let low = r[D - 1];
-    let roll = low[1].atan2(low[D - 1]);
-    let pitch = (-low[0]).atan2(low[1].hypot(low[D - 1]));
-    let yaw = r[1][0].atan2(r[0][0]);
-    [roll, pitch, yaw]
 }
 
 /// The angle plus the full turns that bring it nearest to `other`.

@@ -4,11 +4,11 @@ use super::Pose;
 use super::cost::Cost;
 use crate::aspect::Analysis;
 use crate::kinematics::demand::Margins;
+use crate::motion::search::cheapest_way;
 use crate::num::padded;
 use crate::paving::{ClassSet, Mark, Node};
 use rayon::prelude::*;
-use std::cmp::Ordering;
-use std::collections::{BinaryHeap, HashMap, HashSet};
+use std::collections::{HashMap, HashSet};
 
 /// What a unit of length is taken to cost on what is left of a way. A unit costs 1 at least, seldom less than twice that; looking ahead so
 /// a search sees a third of the boxes, and what it gives away the way gets back when it is made shorter.
@@ -169,48 +169,24 @@ impl Roadmap {
         blocked: &HashSet<(u32, u32)>,
         [start, goal]: [u32; 2],
     ) -> Option<Vec<u32>> {
-        let mut best = vec![f64::INFINITY; self.spots.len()];
-        let mut from = vec![u32::MAX; self.spots.len()];
-        let mut open = BinaryHeap::new();
         let target = self.spot(goal).centre;
-        let ahead = if cost.is_length() { 1.0 } else { AHEAD };
+        let weight = if cost.is_length() { 1.0 } else { AHEAD };
+        let length = |a: &Pose, b: &Pose| cost.distance(a, &cost.beside(a, b));
+        let ahead = |spot: u32| weight * length(&self.spot(spot).centre, &target);
         let keeps = |spot: u32| {
             let m = self.spot(spot).measures;
             m.parallel >= margins.parallel && m.serial >= margins.serial
         };
-        best[start as usize] = 0.0;
-        open.push(Open { estimate: 0.0, cost: 0.0, spot: start });
-        while let Some(Open { cost: so_far, spot, .. }) = open.pop() {
-            if spot == goal {
-                break;
-            }
-            if so_far > best[spot as usize] {
-                continue;
-            }
+        cheapest_way(self.spots.len(), [start, goal], ahead, |spot, visit| {
             let here = self.spot(spot);
             let density = cost.density(here.measures);
             for &next in self.around(spot) {
-                if !keeps(next) || blocked.contains(&(spot, next)) {
-                    continue;
-                }
-                let there = self.spot(next);
-                let length = cost.distance(&here.centre, &cost.beside(&here.centre, &there.centre));
-                let total = so_far + 0.5 * length * (density + cost.density(there.measures));
-                if total < best[next as usize] {
-                    best[next as usize] = total;
-                    from[next as usize] = spot;
-                    let rest = ahead * cost.distance(&there.centre, &cost.beside(&there.centre, &target));
-                    open.push(Open { estimate: total + rest, cost: total, spot: next });
+                if keeps(next) && !blocked.contains(&(spot, next)) {
+                    let there = self.spot(next);
+                    let mean = 0.5 * (density + cost.density(there.measures));
+                    visit(next, length(&here.centre, &there.centre) * mean);
                 }
             }
-        }
-        best[goal as usize].is_finite().then(|| {
-            let mut way = vec![goal];
-            while way[way.len() - 1] != start {
-                way.push(from[way[way.len() - 1] as usize]);
-            }
-            way.reverse();
-            way
         })
     }
 }
@@ -225,33 +201,6 @@ impl Spot {
         })
     }
 }
-
-/// A spot to go on from, the cheapest first.
-struct Open {
-    estimate: f64,
-    cost: f64,
-    spot: u32,
-}
-
-impl Ord for Open {
-    fn cmp(&self, other: &Self) -> Ordering {
-        other.estimate.total_cmp(&self.estimate).then(other.spot.cmp(&self.spot))
-    }
-}
-
-impl PartialOrd for Open {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Open {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Open {}
 
 /// The boxes inside a class, not deeper than `depth`.
 fn sight(class: ClassSet, depth: u32) -> impl Fn(&Node) -> Mark {

@@ -16,7 +16,7 @@ mod track;
 
 pub(super) use forms::Quadrics;
 pub(super) use point::Point;
-pub(super) use quaternion::{roll_pitch_yaw, rotation, turned_product};
+pub(super) use quaternion::{rotation, turned_product};
 pub(super) use solve::Problem;
 #[cfg(test)]
 pub(super) use {

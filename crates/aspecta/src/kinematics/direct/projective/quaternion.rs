@@ -34,24 +34,10 @@ pub(crate) fn rotation<T: Scalar>(e: [T; 4]) -> [[T; 3]; 3] {
     rows.map(|row| row.map(|x| x / norm))
 }
 
-/// roll, pitch, yaw of R = R_z(yaw) R_y(pitch) R_x(roll). At pitch = ±90°, where only roll ∓ yaw is determined, yaw is 0.
-pub(crate) fn roll_pitch_yaw(r: &[[f64; 3]; 3]) -> [f64; 3] {
-    let level = r[0][0].hypot(r[1][0]);
-    let pitch = (-r[2][0]).atan2(level);
-    if level < 4.0 * f64::EPSILON {
-        return [(-r[1][2]).atan2(r[1][1]), pitch, 0.0];
-    }
-    // With yaw undone the second row is (0, cos roll, −sin roll): accurate near the pole too, where yaw is not.
-    let yaw = r[1][0].atan2(r[0][0]);
-    let (s, c) = yaw.sin_cos();
-    let row = |k: usize| c * r[1][k] - s * r[0][k];
-    [(-row(2)).atan2(row(1)), pitch, yaw]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kinematics::placement::Placement;
+    use crate::kinematics::placement::{Placement, roll_pitch_yaw};
     use crate::num::{Interval, dot};
     use crate::robot::Platform;
     use proptest::prelude::*;

@@ -4,15 +4,18 @@ use super::Point;
 use super::forms::{Family, Quadrics};
 use super::prove::{Enclosed, Proved, differ};
 use super::track::{End, Ends, Pace, Tracker, polish};
+use crate::num::Interval;
 
 /// A problem with real coefficients.
 pub(crate) struct Problem<'a, const V: usize, const F: usize> {
     /// A generic member of its family.
-    pub start: &'a Quadrics<V, F>,
+    start: &'a Quadrics<V, F>,
     /// Its common points.
-    pub points: &'a [Point<V>],
-    /// What the coefficients lie in.
-    pub forms: Enclosed<V, F>,
+    points: &'a [Point<V>],
+    /// What the coefficients lie in,
+    forms: Enclosed<V, F>,
+    /// and their midpoints.
+    target: Quadrics<V, F>,
 }
 
 /// Points of norm one whose difference is below this are taken for one.
@@ -20,19 +23,19 @@ const SAME: f64 = 1e-9;
 /// Regular points with imaginary parts below this are tried as real ones.
 const NEARLY_REAL: f64 = 1e-6;
 
-impl<const V: usize, const F: usize> Problem<'_, V, F> {
-    /// The quadrics with the midpoints of the coefficients.
-    pub fn target(&self) -> Quadrics<V, F> {
-        let column = |c: &[crate::num::Interval; V]| Point::real(c.map(|x| x.mid()));
-        Quadrics { forms: self.forms.each_ref().map(|form| form.each_ref().map(column)) }
+impl<'a, const V: usize, const F: usize> Problem<'a, V, F> {
+    /// The quadrics `forms`, of the family of `start` with its common `points`.
+    pub fn new(start: &'a Quadrics<V, F>, points: &'a [Point<V>], forms: Enclosed<V, F>) -> Self {
+        let column = |c: &[Interval; V]| Point::real(c.map(Interval::mid));
+        let target = Quadrics { forms: forms.each_ref().map(|form| form.each_ref().map(column)) };
+        Self { start, points, forms, target }
     }
 
     /// Follows all paths; again and with care those that were lost or came to the same point as another.
     ///
     /// The ends are different points, as far as numbers tell; real ones have real coordinates.
     pub fn solve(&self) -> Ends<V> {
-        let target = self.target();
-        let mut tracker = Tracker::new(Family { start: self.start, target: &target });
+        let mut tracker = Tracker::new(Family { start: self.start, target: &self.target });
         let mut ends: Ends<V> = self.points.iter().map(|x| tracker.follow(x, Pace::QUICK)).collect();
         for pace in [Pace::CAREFUL, Pace::PATIENT] {
             let doubtful = |i: &usize| {
@@ -45,7 +48,7 @@ impl<const V: usize, const F: usize> Problem<'_, V, F> {
         }
         let mut found = Ends::new();
         for end in ends {
-            let point = if end.arrived { as_real(&target, end.point) } else { end.point };
+            let point = if end.arrived { as_real(&self.target, end.point) } else { end.point };
             add(&mut found, End { point, ..end });
         }
         // Real quadrics have the conjugates in common too.
@@ -60,20 +63,18 @@ impl<const V: usize, const F: usize> Problem<'_, V, F> {
 
     /// The common points next to real points that are good approximations; `None` if two of them come out as one.
     pub fn near(&self, points: &[Point<V>]) -> Option<Ends<V>> {
-        let target = self.target();
         let mut ends = Ends::new();
         for x in points {
-            add(&mut ends, End { point: polish(&target, *x), arrived: true });
+            add(&mut ends, End { point: polish(&self.target, *x), arrived: true });
         }
         (ends.len() == points.len()).then_some(ends)
     }
 
     /// The proofs of the ends that are proved to be common points, each different from all the others.
     pub fn prove(&self, ends: &Ends<V>) -> Vec<Option<Proved<V>>> {
-        let target = self.target();
         let mut proofs: Vec<Option<Proved<V>>> = Vec::with_capacity(ends.len());
         for end in ends {
-            let proof = if end.arrived { Proved::near(&self.forms, &target, &end.point) } else { None };
+            let proof = if end.arrived { Proved::near(&self.forms, &self.target, &end.point) } else { None };
             proofs.push(proof.filter(|new| proofs.iter().flatten().all(|old| differ(old, new))));
         }
         proofs
