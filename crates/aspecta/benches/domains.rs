@@ -40,13 +40,14 @@ fn locate(c: &mut Criterion, analysis: &Analysis, found: Domains) {
     let file = map.to_bytes().expect("a file");
     c.bench_function("locate/load", |b| b.iter(|| Map::from_bytes(black_box(&file))));
     let map = Map::from_bytes(&file).expect("a map");
-    let mut poses = (0..grid.len()).step_by(9973).map(|node| grid.pose(node)).cycle();
+    let nodes = |every: usize| (0..grid.len()).step_by(every).map(|node| grid.pose(node)[..3].to_vec());
+    let some: Vec<_> = nodes(9973).collect();
+    let mut poses = some.iter().cycle();
     c.bench_function("locate/anywhere", |b| {
-        b.iter(|| map.locate(black_box(&poses.next().unwrap_or_default()), mode))
+        b.iter(|| poses.next().map(|pose| map.locate(black_box(pose), mode)))
     });
-    let inside = |pose: &[f64; 3]| map.locate(pose, mode).is_ok_and(|l| l.region.is_some());
-    let within: Vec<[f64; 3]> =
-        (0..grid.len()).step_by(997).map(|node| grid.pose(node)).filter(inside).collect();
+    let inside = |pose: &Vec<f64>| map.locate(pose, mode).is_ok_and(|l| l.region.is_some());
+    let within: Vec<_> = nodes(997).filter(inside).collect();
     let mut poses = within.iter().cycle();
     c.bench_function("locate/in the aspect", |b| {
         b.iter(|| poses.next().map(|pose| map.locate(black_box(pose), mode)))

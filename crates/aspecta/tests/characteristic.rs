@@ -4,8 +4,9 @@ use aspecta::aspect::{Analysis, AspectClass, DetSign, Options, Place, analyze};
 use aspecta::domain::boundary::{Boundary, BoundaryError, Face, Simplex};
 use aspecta::domain::characteristic::{Characteristic, CharacteristicError};
 use aspecta::kinematics::modal::Constraint;
+use aspecta::num::without_turns;
 use aspecta::paving::{Budget, Control};
-use aspecta::robot::catalogue;
+use aspecta::robot::{Robot, catalogue};
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 use std::sync::atomic::AtomicBool;
@@ -353,6 +354,40 @@ fn three_rpr_characteristic_surfaces() {
         eprintln!("{tested} crossings");
         assert!(tested >= 50, "{tested} crossings");
     }
+}
+
+/// Solutions are followed in turns, not in roll, pitch and yaw: along most of the boundary of a spherical robot's aspect.
+#[test]
+fn surfaces_of_a_spherical_robot_hang_together() {
+    let leg = |at: [f64; 3], axis: [f64; 3], zero: [f64; 3], proximal: f64, distal: f64| {
+        format!(
+            "[[legs]]\nattachment = {at:?}\nactuator = {{ kind = \"spherical\", axis = {axis:?}, zero = {zero:?}, \
+             proximal = {{ deg = {proximal:?} }}, distal = {{ deg = {distal:?} }} }}\n"
+        )
+    };
+    let text = "name = \"sphere\"\nplatform = \"turning-body\"\n".to_owned()
+        + &leg([0.0, -1.0, 0.2], [1.0, 0.0, 0.1], [0.0, 1.0, 0.0], 70.0, 80.0)
+        + &leg([0.1, 0.0, -1.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], 75.0, 85.0)
+        + &leg([-1.0, 0.1, 0.0], [0.0, 0.1, 1.0], [1.0, 0.0, 0.0], 60.0, 70.0);
+    let robot = Robot::from_toml(&text, "sphere.toml").unwrap();
+    let analysis = analyze(&robot, &to_depth(5), &Control::unwatched()).unwrap();
+    let (_, class) = class_of(&analysis, "+++", DetSign::Negative);
+    let boundary = Boundary::new(&analysis, class.aspects[0].id, 24).unwrap();
+    let surface = Characteristic::new(&analysis, &boundary).unwrap();
+    assert!(surface.simplices.len() > surface.given_up.unclear, "{:?}", surface.given_up);
+    let mut tested = 0;
+    for vertex in &surface.vertices {
+        let source = &surface.sources[vertex.source as usize];
+        // At a serial singularity a leg folds, and its inverse is there or not by rounding.
+        if source.faces != [Some(Face::Of(Constraint::Det)), None, None] {
+            continue;
+        }
+        let joints = |pose: &[f64]| robot.inverse_in(pose, class.mode).unwrap().unwrap();
+        let (q, of) = (joints(&vertex.pose), joints(&source.pose));
+        assert!((0..3).all(|j| without_turns(q[j] - of[j]).abs() < 1e-8), "{q:?} {of:?}");
+        tested += 1;
+    }
+    assert!(tested > 1000, "{tested}");
 }
 
 fn report(surface: &Characteristic, start: std::time::Instant) {

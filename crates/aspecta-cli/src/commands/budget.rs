@@ -3,11 +3,15 @@
 use crate::failure::Failure;
 use aspecta::motion::explore::Effort;
 use aspecta::paving::{Budget, MAX_DEPTH};
-use aspecta::robot::Robot;
 
-/// What is fine enough to work with the aspects of a robot, if no budget is given.
-pub fn coarse(robot: &Robot) -> Budget {
-    Budget { depth: Some(if robot.dof() == 2 { 11 } else { 7 }), ..Budget::default() }
+/// What is fine enough to work with aspects in so many free coordinates, if no budget is given.
+pub fn coarse(free: usize) -> Budget {
+    let depth = match free {
+        0 | 1 => 16,
+        2 => 11,
+        _ => 7,
+    };
+    Budget { depth: Some(depth), ..Budget::default() }
 }
 
 /// What a roadmap may take: its budget is a time.

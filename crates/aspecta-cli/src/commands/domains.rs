@@ -1,9 +1,9 @@
 //! `aspecta domains`: basic regions and uniqueness domains.
 
 use super::drawing::Drawing;
-use super::mapping::{Making, Source, Wanted};
+use super::mapping::{Making, Part, Source, Wanted};
 use super::target::Target;
-use super::{regions, watch};
+use super::{fix, regions, watch};
 use crate::failure::{Answer, Failure};
 use crate::input;
 use crate::output::{self, FORMAT_VERSION, note};
@@ -33,6 +33,11 @@ pub struct Domains {
     /// Only the aspect with this number, as `aspecta analyze` with the same budget numbers them
     #[arg(long, value_name = "ID")]
     aspect: Option<usize>,
+    /// Hold a coordinate at a value and cut that slice: x=-4, phi=0.5 (radians) or phi=30deg; again, or separated by commas, for several.
+    /// Solutions are counted wherever they are, in the whole class of the aspect (working mode and sign of det A). With --mode only that mode is analysed.
+    /// Robots with 6 coordinates have 3 free ones at most
+    #[arg(long, value_name = "COORDINATE=VALUE", value_delimiter = ',')]
+    fix: Vec<String>,
     #[command(flatten)]
     making: Making,
     /// Print the whole result as JSON, and nothing else, on stdout (angles in radians)
@@ -66,6 +71,8 @@ enum Sign {
 struct Output<'a> {
     format_version: u32,
     robot: &'a Robot,
+    /// Names and values of the coordinates that are held.
+    fixed: Vec<(&'a str, f64)>,
     aspects: Count,
     domains: Vec<&'a Found>,
 }
@@ -74,13 +81,14 @@ impl Domains {
     pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
         let source = Source::new(&self.robot)?;
         let wanted = self.wanted(source.robot())?;
+        let part = self.part(source.robot(), wanted)?;
         if let Some(directory) = &self.out {
             file::writable(directory).map_err(Failure::in_directory(directory))?;
         }
         let save = self.save.as_deref().map(target).transpose()?;
         let with_surfaces = self.out.is_some() || self.save.is_some();
         let (map, stop) = watch::watched(self.threads, |control| {
-            source.map(&self.making, with_surfaces, control, |analysis| self.ids(analysis, wanted))
+            source.map(&self.making, part, with_surfaces, control, |analysis| self.ids(analysis, wanted))
         })??;
         if stop == Some(Stop::Cancelled) {
             note("cancelled: this is the result so far");
@@ -111,6 +119,19 @@ impl Domains {
         Ok(Wanted { mode, det_a, aspect: self.aspect })
     }
 
+    /// The slice, if one is asked for.
+    fn part(&self, robot: &Robot, wanted: Wanted) -> Result<Part, Failure> {
+        let fix = fix::parse(robot, &self.fix)?;
+        if !fix.is_empty() && self.save.is_some() {
+            return Err(Failure::Input(
+                "--save keeps maps of whole workspaces: leave out --fix, or take --json".into(),
+            ));
+        }
+        // On a slice aspects are numbered within what is analysed; of a whole robot, as `analyze` numbers them.
+        let modes = if fix.is_empty() { Vec::new() } else { wanted.mode.into_iter().collect() };
+        Ok(Part { fix, modes })
+    }
+
     /// The aspects that are wanted, of those that were found.
     fn ids(&self, analysis: &Analysis, wanted: Wanted) -> Result<Vec<usize>, Failure> {
         if let Some(id) = self.aspect
@@ -130,14 +151,21 @@ impl Domains {
         if self.json {
             let domains = sheets.iter().map(|sheet| &sheet.domains).collect();
             let (robot, aspects) = (&map.robot, map.aspects);
-            return output::json(out, &Output { format_version: FORMAT_VERSION, robot, aspects, domains });
+            let fixed = map.window.held().map(|(k, x)| (robot.platform.coordinates()[k].name, x)).collect();
+            return output::json(
+                out,
+                &Output { format_version: FORMAT_VERSION, robot, fixed, aspects, domains },
+            );
         }
         for sheet in sheets {
-            regions::print(out, &map.robot, &sheet.domains)?;
+            regions::print(out, map, &sheet.domains)?;
         }
         if sheets.is_empty() {
             let found: usize = map.classes.iter().map(|class| class.aspects.len()).sum();
-            writeln!(out, "none of the {found} aspects found is there, or cut into regions")?;
+            match found {
+                0 => writeln!(out, "no aspect was found")?,
+                _ => writeln!(out, "none of the {found} aspects found is there, or cut into regions")?,
+            }
         }
         Ok(())
     }

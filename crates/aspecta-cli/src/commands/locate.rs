@@ -1,6 +1,6 @@
 //! `aspecta locate`: in which aspect, basic region and uniqueness domains a configuration lies.
 
-use super::mapping::{Making, Source};
+use super::mapping::{Making, Part, Source};
 use super::places;
 use super::queries::{Query, queries};
 use super::solutions::Found;
@@ -57,7 +57,9 @@ impl Locate {
         let found = self.configurations(source.robot())?;
         let computed = matches!(source, Source::Robot(_));
         let (map, _) = watch::watched(self.threads, |control| {
-            source.map(&self.making, false, control, |analysis| Ok(concerned(analysis, &found)))
+            source.map(&self.making, Part::default(), false, control, |analysis| {
+                Ok(concerned(analysis, &found))
+            })
         })??;
         if computed {
             let (robot, name) = (&self.robot, &map.robot.name);

@@ -6,7 +6,7 @@ use crate::input;
 use aspecta::aspect::{Analysis, DetSign, Options, analyze};
 use aspecta::domain::boundary::Boundary;
 use aspecta::domain::characteristic::Characteristic;
-use aspecta::domain::{DomainError, DomainOptions, Map, MappedAspect, Surfaces, domains};
+use aspecta::domain::{DomainError, DomainOptions, Domains, Map, MappedAspect, Surfaces, domains, slice};
 use aspecta::kinematics::WorkingMode;
 use aspecta::paving::{Budget, Control, Stop};
 use aspecta::robot::Robot;
@@ -15,10 +15,12 @@ use clap::Args;
 /// How a map is computed.
 #[derive(Args)]
 pub struct Making {
-    /// How fine: cells are 1/N of the workspace's width in each coordinate [default: 500 for 2 coordinates, 100 for 3]
+    /// How fine: cells are 1/N of the workspace's width in each coordinate [default: 500 for 1 or 2 coordinates, 100 for 3; for robots
+    /// with 6 500, 100 and 30 for 1, 2 and 3 that are free]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(2..=2000))]
     cells: Option<u16>,
-    /// When to stop telling the aspects apart, as for `analyze` [default: depth=11 for 2 coordinates, depth=7 for 3]
+    /// When to stop telling the aspects apart, as for `analyze` [default: depth=16, 11 and 7 for
+    /// 1, 2 and 3 free coordinates]
     #[arg(long, value_parser = budget::parse, allow_hyphen_values = true)]
     budget: Option<Budget>,
 }
@@ -40,6 +42,22 @@ pub struct Wanted {
     pub det_a: Option<DetSign>,
     /// The one with this number.
     pub aspect: Option<usize>,
+}
+
+/// What part of a robot is looked at.
+#[derive(Clone, Debug, Default)]
+pub struct Part {
+    /// Coordinates that are held, and their values.
+    pub fix: Vec<(usize, f64)>,
+    /// Working modes, all if empty.
+    pub modes: Vec<WorkingMode>,
+}
+
+impl Part {
+    /// Coordinates that are free.
+    fn free(&self, robot: &Robot) -> usize {
+        (0..robot.dof()).filter(|k| self.fix.iter().all(|(held, _)| held != k)).count()
+    }
 }
 
 impl Wanted {
@@ -70,19 +88,23 @@ impl Source {
         }
     }
 
-    /// The map: that of the file, or computed now, of those aspects that `wanted` picks from the analysis.
+    /// The map: that of the file, or computed now, of those aspects of a part that `wanted` picks from the analysis.
     pub fn map(
         self,
         making: &Making,
+        part: Part,
         surfaces: bool,
         control: &Control<'_>,
         wanted: impl Fn(&Analysis) -> Result<Vec<usize>, Failure>,
     ) -> Result<(Map, Option<Stop>), Failure> {
         match self {
-            Self::Robot(robot) => making.map(&robot, surfaces, control, wanted),
+            Self::Robot(robot) => making.map(&robot, part, surfaces, control, wanted),
             Self::Map(_) if making.cells.is_some() || making.budget.is_some() => Err(Failure::Input(
                 "--cells and --budget are for robots: the map in this file is as fine as it was computed"
                     .into(),
+            )),
+            Self::Map(_) if !part.fix.is_empty() => Err(Failure::Input(
+                "--fix is for robots: the map in this file is that of the whole workspace".into(),
             )),
             Self::Map(map) => Ok((*map, None)),
         }
@@ -93,19 +115,20 @@ impl Making {
     fn map(
         &self,
         robot: &Robot,
+        part: Part,
         with_surfaces: bool,
         control: &Control<'_>,
         wanted: impl Fn(&Analysis) -> Result<Vec<usize>, Failure>,
     ) -> Result<(Map, Option<Stop>), Failure> {
-        let in_plane = robot.dof() == 2;
-        let budget = self.budget.unwrap_or_else(|| budget::coarse(robot));
-        let options = Options { budget, ..Options::default() };
-        let usual = DomainOptions::default();
-        let cells = self.cells.map_or(if in_plane { 5 * usual.cells } else { usual.cells }, usize::from);
+        let free = part.free(robot);
+        let budget = self.budget.unwrap_or_else(|| budget::coarse(free));
+        let options = Options { budget, fix: part.fix, modes: part.modes, ..Options::default() };
+        let usual = usual_options(robot, free);
+        let cells = self.cells.map_or(usual.cells, usize::from);
         let analysis = analyze(robot, &options, control)?;
         let sheet = |id: usize| {
             let mut domains = domains(&analysis, id, DomainOptions { cells, ..usual }, control)?;
-            let surfaces = with_surfaces.then(|| surfaces(&analysis, id, cells)).transpose()?;
+            let surfaces = with_surfaces.then(|| surfaces(&analysis, &domains, cells)).transpose()?;
             if let Some(Surfaces { characteristic, .. }) = &surfaces {
                 domains.measure_disagreements(characteristic, &analysis.window);
             }
@@ -116,10 +139,26 @@ impl Making {
     }
 }
 
+/// How finely regions are found and checked, by the number of free coordinates and what the direct problem costs.
+fn usual_options(robot: &Robot, free: usize) -> DomainOptions {
+    let usual = DomainOptions::default();
+    match (robot.dof(), free) {
+        (6, 2) => DomainOptions { cells: 100, samples: 2000 },
+        (6, 3) => DomainOptions { cells: 30, samples: 2000 },
+        (6, _) => DomainOptions { cells: 500, samples: 2000 },
+        (_, 3) => usual,
+        _ => DomainOptions { cells: 500, ..usual },
+    }
+}
+
 /// The boundary of an aspect and its characteristic surface, about as fine as the regions: within what [`Boundary::new`] takes.
-fn surfaces(analysis: &Analysis, id: usize, cells: usize) -> Result<Surfaces, Failure> {
-    let cells = cells.clamp(4, if analysis.robot.dof() == 2 { 2000 } else { 300 });
-    let boundary = Boundary::new(analysis, id, cells).map_err(|e| Failure::Input(e.to_string()))?;
+fn surfaces(analysis: &Analysis, domains: &Domains, cells: usize) -> Result<Surfaces, Failure> {
+    let cells = cells.clamp(4, if domains.cell.len() == 2 { 2000 } else { 300 });
+    let boundary =
+        Boundary::new(analysis, domains.aspect, cells).map_err(|e| Failure::Input(e.to_string()))?;
+    if !analysis.fixed.is_empty() {
+        return Ok(Surfaces::on_slice(&boundary, slice::surfaces(analysis, domains)));
+    }
     let characteristic =
         Characteristic::new(analysis, &boundary).map_err(|e| Failure::Input(e.to_string()))?;
     Ok(Surfaces::new(&boundary, &characteristic))

@@ -53,7 +53,7 @@ impl Analysing {
                 robot.name
             )));
         }
-        let budget = self.budget.unwrap_or_else(|| budget::coarse(robot));
+        let budget = self.budget.unwrap_or_else(|| budget::coarse(robot.dof()));
         // In the plane all modes cost nothing to speak of, and aspects then have the numbers of `analyze`.
         let modes = if robot.dof() == 2 { &[] } else { modes };
         let options = Options { budget, modes: modes.to_vec(), ..Options::default() };

@@ -3,12 +3,12 @@
 use super::queries::Labels;
 use crate::failure::Failure;
 use crate::output::{Align, Table, brief};
-use aspecta::domain::Domains;
-use aspecta::robot::Robot;
+use aspecta::domain::{Domains, Map};
+use aspecta::robot::Window;
 use std::io::Write;
 
 /// Prints regions, uniqueness domains and what was checked of them.
-pub fn print(out: &mut dyn Write, robot: &Robot, found: &Domains) -> Result<(), Failure> {
+pub fn print(out: &mut dyn Write, map: &Map, found: &Domains) -> Result<(), Failure> {
     let Domains { aspect, mode, det_a, unit, .. } = found;
     writeln!(
         out,
@@ -18,10 +18,24 @@ pub fn print(out: &mut dyn Write, robot: &Robot, found: &Domains) -> Result<(), 
         unit.unit,
         found.cell.iter().map(|w| brief(*w)).collect::<Vec<_>>().join(" x ")
     )?;
-    regions(out, robot, found)?;
+    let (pose, held) = (Labels::pose(&map.robot, false), held(&map.window));
+    if !held.is_empty() {
+        let values: Vec<f64> = map.window.held().map(|(_, x)| x).collect();
+        writeln!(
+            out,
+            "on the slice {}: solutions are counted in the whole class (mode and sign of det A), outside the slice too",
+            Labels::pose(&map.robot, false).only(&held).sentence(&values)
+        )?;
+    }
+    regions(out, &pose, &map.window, found)?;
     uniqueness(out, found)?;
-    checks(out, robot, found)?;
+    checks(out, &pose, held.is_empty(), found)?;
     Ok(writeln!(out)?)
+}
+
+/// The coordinates that a slice holds.
+fn held(window: &Window) -> Vec<usize> {
+    window.held().map(|(k, _)| k).collect()
 }
 
 fn right(name: &str) -> (String, Align) {
@@ -32,10 +46,11 @@ fn percent(share: f64) -> String {
     format!("{:.1} %", 100.0 * share)
 }
 
-fn regions(out: &mut dyn Write, robot: &Robot, found: &Domains) -> Result<(), Failure> {
-    let (pose, unit) = (Labels::pose(robot, false), &found.unit);
+fn regions(out: &mut dyn Write, pose: &Labels, window: &Window, found: &Domains) -> Result<(), Failure> {
+    let (unit, axes) = (&found.unit, window.axes());
     writeln!(out, "\nBasic regions (Def. 10)")?;
-    let vector = pose.headings().map(|name| (name, Align::Right));
+    let headings: Vec<String> = pose.headings().collect();
+    let vector = axes.iter().map(|&k| (headings[k].clone(), Align::Right));
     let names = [right("region"), right(unit.name), right("solutions")];
     let mut table =
         Table::new(names.into_iter().chain(vector).chain([("image meets that of".into(), Align::Left)]));
@@ -47,7 +62,7 @@ fn regions(out: &mut dyn Write, robot: &Robot, found: &Domains) -> Result<(), Fa
             _ => None,
         });
         let meets = meets.take(8).collect::<Vec<_>>().join(" ");
-        table.row(first.into_iter().chain(region.pose.iter().map(|x| brief(*x))).chain([meets]));
+        table.row(first.into_iter().chain(axes.iter().map(|&k| brief(region.pose[k]))).chain([meets]));
     }
     write!(out, "{table}")?;
     more(out, found.regions.len())?;
@@ -91,8 +106,8 @@ fn uniqueness(out: &mut dyn Write, found: &Domains) -> Result<(), Failure> {
 }
 
 /// What was checked, and where it does not hold.
-fn checks(out: &mut dyn Write, robot: &Robot, found: &Domains) -> Result<(), Failure> {
-    let (pose, agreement) = (Labels::pose(robot, false), &found.agreement);
+fn checks(out: &mut dyn Write, pose: &Labels, whole: bool, found: &Domains) -> Result<(), Failure> {
+    let agreement = &found.agreement;
     writeln!(
         out,
         "\nchecked: {} of {} random poses away from the surfaces have as many direct solutions as their region",
@@ -107,16 +122,22 @@ fn checks(out: &mut dyn Write, robot: &Robot, found: &Domains) -> Result<(), Fai
             brief(apart)
         )?;
     }
+    pairs(out, "are parts of one, joined outside the slice", &found.joined)?;
+    pairs(
+        out,
+        "may have coincident images or not, so no uniqueness domain above holds both",
+        &found.undecided,
+    )?;
     let incomplete = unmatched(found);
-    if !incomplete.is_empty() {
+    if whole && !incomplete.is_empty() {
         let listed = incomplete.iter().take(LISTED).map(usize::to_string).collect::<Vec<_>>().join(" ");
         writeln!(
             out,
             "not as many coincident images as solutions, so the uniqueness domains are not sure (more --cells): regions {listed}"
         )?;
     }
-    for c in found.coincidences.iter().filter(|c| c.shares.0.min(c.shares.1) < WHOLE).take(LISTED) {
-        let ((a, b), (in_b, in_a)) = (c.regions, c.shares);
+    let shares = found.coincidences.iter().filter_map(|c| Some((c.regions, c.shares?)));
+    for ((a, b), (in_b, in_a)) in shares.filter(|(_, (a, b))| a.min(*b) < WHOLE).take(LISTED) {
         writeln!(
             out,
             "images of regions {a} and {b} meet in part ({}, {}): more --cells would tell regions apart or show them whole",
@@ -138,6 +159,16 @@ fn checks(out: &mut dyn Write, robot: &Robot, found: &Domains) -> Result<(), Fai
         writeln!(out, "at {} nodes the direct model failed: counted as one solution", found.failed)?;
     }
     Ok(())
+}
+
+/// Says something of pairs of regions, if there are any.
+fn pairs(out: &mut dyn Write, what: &str, pairs: &[(usize, usize)]) -> Result<(), Failure> {
+    if pairs.is_empty() {
+        return Ok(());
+    }
+    let listed = pairs.iter().take(LISTED).map(|(a, b)| format!("{a}-{b}")).collect::<Vec<_>>().join(" ");
+    let dots = if pairs.len() > LISTED { " …" } else { "" };
+    Ok(writeln!(out, "regions that {what}: {listed}{dots}")?)
 }
 
 /// The regions whose image does not meet those of just so many others that each solution has one: some are not resolved, or

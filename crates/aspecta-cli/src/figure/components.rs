@@ -57,10 +57,13 @@ pub struct Section {
 }
 
 impl<'a> JointSpace<'a> {
-    /// The joint space of an aspect. `held` is the joint to hold, from 0, if there are three.
+    /// The joint space of an aspect; `None` for one of a slice. `held` is the joint to hold, from 0, if there are three.
     pub fn new(cut: &'a Cut<'a>, held: usize) -> Option<Self> {
         let Cut { map, domains, boundary, .. } = *cut;
         let robot = &map.robot;
+        if map.window.held().next().is_some() {
+            return None;
+        }
         let sheet = map.sheet(domains.aspect)?;
         let joints = match (robot.dof(), held) {
             (2, _) => [0, 1, 2],
@@ -84,7 +87,7 @@ impl<'a> JointSpace<'a> {
         let some: Vec<usize> = nodes.iter().copied().step_by(1 + nodes.len() / SAMPLES).collect();
         let inside: Vec<[f64; 3]> = some
             .par_iter()
-            .filter_map(|&node| sheet.joints(&grid.pose(node)[..grid.axes()]).map(|q| chosen(&q)))
+            .filter_map(|&node| sheet.joints(&grid.pose(node)[..grid.dof()]).map(|q| chosen(&q)))
             .collect();
         let axis = |k: usize| {
             let values = inside.iter().chain(&vertices).map(|q| q[k]).collect();
@@ -167,7 +170,7 @@ impl<'a> JointSpace<'a> {
         };
         // All lie in one group: where one pose is amid its region, it says which.
         let labels = &self.cut.domains.labels;
-        let round = |pose: &[f64; 3]| labels.region_round(&pose[..labels.grid.axes()]).filter(known);
+        let round = |pose: &[f64; 6]| labels.region_round(&pose[..labels.grid.dof()]).filter(known);
         let group = poses.iter().find_map(round).map(|region| self.hues.group(region as usize));
         let fit = |region: &u32| {
             known(region) && group.is_none_or(|group| self.hues.group(*region as usize) == group)
@@ -178,11 +181,11 @@ impl<'a> JointSpace<'a> {
     }
 
     /// The region of a pose: that of the nearest node round it in a region that fits.
-    fn region(&self, pose: &[f64; 3], fit: impl Fn(&u32) -> bool) -> u32 {
+    fn region(&self, pose: &[f64; 6], fit: impl Fn(&u32) -> bool) -> u32 {
         let labels = &self.cut.domains.labels;
         let grid = &labels.grid;
         let mut nearest = (f64::INFINITY, OUTSIDE);
-        grid.around(&pose[..grid.axes()], |node| {
+        grid.around(&pose[..grid.dof()], |node| {
             let at = grid.turned_to(pose, node);
             let gap: f64 = (0..grid.axes()).map(|k| ((at[k] - pose[k]) / grid.step[k]).powi(2)).sum();
             if gap < nearest.0 && fit(&labels.region[node]) {

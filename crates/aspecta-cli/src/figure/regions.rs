@@ -30,6 +30,9 @@ pub(super) const ENTRY: f64 = 190.0;
 /// Least side of the square in which a label stands, and width of a character, pixels.
 const ROOM: f64 = 12.0;
 const CHARACTER: f64 = 6.5;
+const CAPTION: &str = "n: direct solutions in the aspect; regions of one hue have coincident images";
+const SLICE_CAPTION: &str =
+    "n: direct solutions in the class, outside the slice too; regions of one hue have coincident images";
 pub(super) const CHARACTERISTIC: &str = "fill:none;stroke:#222;stroke-width:0.6;stroke-linejoin:round";
 
 /// What is drawn: an aspect cut into its regions, and the surfaces that bound them.
@@ -81,13 +84,17 @@ fn sheet(
     let in_plane = grid.axes() == 2;
     let layers = if in_plane { vec![0] } else { layers(domains) };
     let count = SLICES.min(layers.len());
-    let axes = [0, 1].map(|k| {
-        let low = grid.pose(0)[k] - 0.5 * grid.step[k];
-        let range = (low, low + grid.step[k] * grid.count[k] as f64);
+    let axes = [0, 1].map(|axis| {
+        let k = grid.coordinate(axis);
+        let low = grid.pose(0)[k] - 0.5 * grid.step[axis];
+        let range = (low, low + grid.step[axis] * grid.count[axis] as f64);
         Axis { range, ..pose_axis(robot, window, k) }
     });
+    let third = grid.coordinate(2);
     let (side, columns) = if in_plane { (MAP, 1) } else { (SLICE, COLUMNS) };
-    let panels = Panels::new(axes, side, columns, HEADING);
+    let held: Vec<String> = window.held().map(|(k, value)| place(robot, k, value)).collect();
+    let top = if held.is_empty() { HEADING } else { 2.0 * HEADING };
+    let panels = Panels::new(axes, side, columns, top);
     let (width, height) = panels.size(count);
     let width = width.max(720.0);
     let entries = entries(cut, colours, is_shown);
@@ -96,7 +103,7 @@ fn sheet(
         cut,
         entry: ENTRY,
         notes: hidden.then_some((PALE, "other regions")).into_iter().chain(thin(domains)).collect(),
-        caption: "n: direct solutions in the aspect; regions of one hue have coincident images",
+        caption: if held.is_empty() { CAPTION } else { SLICE_CAPTION },
         of: "",
         thin: (!cut.surface.simplices.is_empty()).then_some("characteristic surface"),
         left: panels.left,
@@ -107,11 +114,12 @@ fn sheet(
     let id = format!("{name}-{}", domains.aspect);
     let mut svg = Svg::new(&id, width, height + legend.height() + 12.0, &title);
     svg.text([panels.left, 16.0], Anchor::Start, 13.0, "font-weight:600", &title);
+    svg.text([panels.left, 16.0 + HEADING], Anchor::Start, 11.0, "", &held.join(", "));
     let [boundary, surface] = [cut.boundary, cut.surface].map(|mesh| Mesh::of_poses(mesh, window));
     for k in 0..count {
         let layer = layers[(2 * k + 1) * layers.len() / (2 * count)];
-        let at = grid.pose(layer * grid.count[0] * grid.count[1])[2];
-        let plane = (!in_plane).then(|| Plane { at, glued: window.glued[2] });
+        let at = (!in_plane).then(|| grid.pose(layer * grid.count[0] * grid.count[1])[third]);
+        let plane = at.map(|at| Plane { at, glued: window.glued[third] });
         let chart = panels.chart(k);
         let raster = layer_of(domains, layer);
         fill(&mut svg, &chart, &raster, |label| colour(colours, label));
@@ -121,7 +129,7 @@ fn sheet(
             let number = label as usize + 1;
             (number <= domains.regions.len() && is_shown(number)).then(|| number.to_string())
         });
-        chart.frame(&mut svg, &if in_plane { String::new() } else { place(robot, 2, at) });
+        chart.frame(&mut svg, &at.map_or(String::new(), |at| place(robot, third, at)));
     }
     legend.draw(&mut svg, height + 10.0);
     svg.finish()

@@ -31,10 +31,11 @@ pub struct Plane {
 }
 
 impl<'a> Mesh<'a> {
-    /// A mesh of poses in a window.
+    /// A mesh of poses in a window, or of their free coordinates on a slice of two or more.
     pub fn of_poses(mesh: &'a domain::Mesh, window: &Window) -> Self {
         let vertices = mesh.vertices.iter().map(Vec::as_slice).collect();
-        Self { vertices, simplices: &mesh.simplices, turns: [0, 1].map(|k| window.glued[k]) }
+        let axes = window.axes();
+        Self { vertices, simplices: &mesh.simplices, turns: [0, 1].map(|k| window.glued[axes[k]]) }
     }
 }
 
@@ -131,7 +132,8 @@ mod tests {
         };
         let plane = Plane { at: 0.0, glued: false };
         let jump = |roll_is_glued: bool| -> f64 {
-            let window = Window { glued: vec![roll_is_glued, false, false], ..Window::default() };
+            let ranges = vec![(-PI, PI), (-1.0, 1.0), (-1.0, 1.0)];
+            let window = Window { ranges, glued: vec![roll_is_glued, false, false], ..Window::default() };
             let lines = Mesh::of_poses(&mesh, &window).lines(Kind::Parallel, Some(plane));
             let gap = |pair: &[[f64; 2]]| (pair[1][0] - pair[0][0]).abs();
             lines.iter().flat_map(|line| line.windows(2)).map(gap).fold(0.0, f64::max)

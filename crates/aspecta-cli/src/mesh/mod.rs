@@ -61,7 +61,7 @@ impl Surfaces {
     /// The surfaces of an aspect; `None` unless its robot has three coordinates.
     pub fn new(cut: &Cut<'_>) -> Option<Self> {
         let Cut { map: Map { robot, window, .. }, domains, boundary, surface } = cut;
-        if robot.dof() != 3 {
+        if robot.dof() != 3 || window.held().next().is_some() {
             return None;
         }
         let mut faces: Vec<Face> = Vec::new();

@@ -1,4 +1,4 @@
-//! `aspecta domains --out`.
+//! `aspecta domains --out` and `--fix`.
 
 use crate::{aspecta, output};
 use std::fs;
@@ -73,4 +73,56 @@ fn a_directory_that_cannot_be_written_is_refused() {
 fn without_out_nothing_is_written() {
     let text = output("domains five-bar --aspect 1 --cells 60 --budget depth=7");
     assert!(text.status.success() && !String::from_utf8_lossy(&text.stdout).contains("written"));
+}
+
+const SLICE: &str =
+    "domains gough-stewart --fix y=0.1,roll=0.1,pitch=0.3,yaw=0.8 --det - --cells 40 --budget depth=8";
+
+#[test]
+fn slices_say_what_is_held_and_where_solutions_are_counted() {
+    let directory = tempfile::tempdir().unwrap();
+    let run = aspecta(SLICE).arg("--out").arg(directory.path()).output().unwrap();
+    let text = String::from_utf8(run.stdout).unwrap();
+    let expected = [
+        "on the slice y = 0.100000 unit, roll = 0.100000 rad",
+        "outside the slice too",
+        "x [unit]  z [unit]",
+    ];
+    assert!(expected.iter().all(|part| text.contains(part)), "{text}");
+    let picture = fs::read_to_string(directory.path().join("aspect-2-regions.svg")).unwrap();
+    let expected =
+        ["y = 0.1 unit, roll = 0.1 rad", "in the class, outside the slice too", "characteristic surface"];
+    assert!(expected.iter().all(|part| picture.contains(part)), "{picture}");
+    // There is no picture of a joint space of six.
+    assert!(!directory.path().join("aspect-2-components.svg").exists());
+
+    let json: serde_json::Value = serde_json::from_slice(&output(&format!("{SLICE} --json")).stdout).unwrap();
+    assert_eq!(json["fixed"][0], serde_json::json!(["y", 0.1]));
+    let regions = json["domains"][0]["regions"].as_array().unwrap();
+    assert!(
+        regions.len() > 1 && regions.iter().all(|r| r["pose"].as_array().unwrap().len() == 6),
+        "{regions:?}"
+    );
+}
+
+#[test]
+fn what_slices_have_not_is_refused() {
+    let refused = |arguments: &str, expected: &str| {
+        let output = output(arguments);
+        let messages = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.code() == Some(2) && messages.contains(expected), "{arguments}: {messages}");
+    };
+    refused(&format!("{SLICE} --save x.aspecta"), "--save keeps maps of whole workspaces");
+    refused("domains gough-stewart", "--fix roll=0,pitch=0,yaw=0");
+    refused("domains 3-rrr --fix z=1", "has no coordinate `z`");
+    let line = "domains 3-rrr --fix phi=0.3,y=0 --mode +++ --det + --cells 100";
+    refused(&format!("{line} --out x"), "two or three coordinates");
+    assert!(output(line).status.success());
+
+    let directory = tempfile::tempdir().unwrap();
+    let map = directory.path().join("map.aspecta");
+    let save =
+        aspecta("domains five-bar --aspect 1 --cells 60 --budget depth=7 --save").arg(&map).output().unwrap();
+    assert!(save.status.success());
+    refused(&format!("domains {} --fix x=1", map.display()), "--fix is for robots");
 }

@@ -1,15 +1,17 @@
 //! From an aspect to its domains.
 
-use super::grid::Grid;
+use super::grid::{Grid, Pose};
 use super::images::Images;
-use super::labels::OUTSIDE;
+use super::labels::{Labels, OUTSIDE};
 use super::partition::{Partition, Region};
 use super::result::*;
 use super::sheet::Sheet;
+use super::slice::Beyond;
 use super::uniqueness::maximal_sets;
 use crate::aspect::Analysis;
 use crate::num::Random;
 use crate::paving::Control;
+use rayon::prelude::*;
 use std::collections::BTreeSet;
 
 /// Most nodes of a grid.
@@ -25,14 +27,12 @@ pub fn domains(
     options: DomainOptions,
     control: &Control<'_>,
 ) -> Result<Domains, DomainError> {
-    if !analysis.fixed.is_empty() {
-        return Err(DomainError::Slice);
-    }
+    let whole = analysis.robot.workspace_window()?;
     let missing = DomainError::NoAspect { id, count: analysis.aspects.low };
     let (Some(sheet), Some((class, aspect))) = (Sheet::new(analysis, id), analysis.aspect(id)) else {
         return Err(missing);
     };
-    let grid = Grid::new(&analysis.window, &aspect.w_bounds, options.cells);
+    let grid = Grid::new(&analysis.window, &whole, &aspect.w_bounds, options.cells);
     if grid.len() > MOST_NODES {
         return Err(DomainError::TooFine { nodes: grid.len(), most: MOST_NODES });
     }
@@ -46,8 +46,12 @@ pub fn domains(
     let measure_of = |regions: &[Region]| regions.iter().map(|r| r.nodes as f64 * cell).sum::<f64>();
     let images = partition.images(&all);
     let adjacent = among(regions, partition.labels.adjacent());
-    let meeting = among(regions, images.meeting());
-    let (uniqueness, complete) = uniqueness(analysis, &partition, regions, &adjacent, &meeting);
+    let beyond = Beyond::new(&sheet, &partition, regions, control).unwrap_or_default();
+    let mut meeting = among(regions, images.meeting());
+    meeting.extend(&beyond.coincident);
+    let conflict = meeting.union(&beyond.undecided).copied().collect();
+    let (uniqueness, complete) = uniqueness(analysis, &partition, regions, &adjacent, &conflict);
+    let numbered = |pairs: &Pairs| pairs.iter().map(|(a, b)| (a + 1, b + 1)).collect();
     let entry = &analysis.classes[class];
     Ok(Domains {
         aspect: id,
@@ -58,11 +62,13 @@ pub fn domains(
         measure: measure_of(&all),
         unresolved: Unresolved { parts: slivers.len(), measure: measure_of(slivers) },
         regions: (1..).zip(regions).map(|(number, r)| basic_region(&partition, number, r)).collect(),
-        adjacent: adjacent.into_iter().map(|(a, b)| (a + 1, b + 1)).collect(),
-        coincidences: coincidences(&images, &meeting),
+        adjacent: numbered(&adjacent),
+        coincidences: coincidences(&images, &beyond, &meeting),
+        joined: numbered(&beyond.joined),
+        undecided: numbered(&beyond.undecided),
         uniqueness,
         complete,
-        violations: violations(&sheet, &partition, &images, regions.len()),
+        violations: violations(&sheet, &partition, &images, &beyond, regions.len()),
         agreement: agreement(&sheet, &partition, regions, options.samples),
         failed: partition.failed,
         labels: partition.labels,
@@ -82,9 +88,9 @@ fn uniqueness(
     partition: &Partition,
     regions: &[Region],
     adjacent: &Pairs,
-    meeting: &Pairs,
+    conflict: &Pairs,
 ) -> (Vec<UniquenessDomain>, bool) {
-    let (sets, complete) = maximal_sets(regions.len(), adjacent, meeting);
+    let (sets, complete) = maximal_sets(regions.len(), adjacent, conflict);
     let cell = partition.labels.grid.measure();
     let aspect = partition.solutions.iter().filter(|count| **count > 0).count() as f64 * cell;
     let workspace = workspace(analysis);
@@ -121,65 +127,93 @@ fn basic_region(partition: &Partition, number: usize, region: &Region) -> BasicR
         number,
         measure: region.nodes as f64 * grid.measure(),
         solutions: region.solutions,
-        pose: grid.pose(region.sample)[..grid.axes()].to_vec(),
+        pose: grid.pose(region.sample)[..grid.dof()].to_vec(),
     }
 }
 
-fn coincidences(images: &Images, meeting: &Pairs) -> Vec<Coincidence> {
+fn coincidences(images: &Images, beyond: &Beyond, meeting: &Pairs) -> Vec<Coincidence> {
     let meeting = meeting.iter().filter(|(a, b)| a != b);
-    let entry = |&(a, b): &(usize, usize)| Coincidence {
-        regions: (a + 1, b + 1),
-        shares: (images.share(a, b), images.share(b, a)),
+    let entry = |pair: &(usize, usize)| {
+        let (a, b) = *pair;
+        let seen_on_the_slice = !beyond.coincident.contains(pair);
+        let shares = seen_on_the_slice.then(|| (images.share(a, b), images.share(b, a)));
+        Coincidence { regions: (a + 1, b + 1), shares }
     };
     meeting.map(entry).collect()
 }
 
-fn violations(sheet: &Sheet<'_>, partition: &Partition, images: &Images, regions: usize) -> Vec<Violation> {
-    let grid = &partition.labels.grid;
-    let violation = |region: usize| {
-        let pose = grid.pose(images.within(region)?)[..grid.axes()].to_vec();
-        let joints = sheet.joints(&pose)?;
+fn violations(
+    sheet: &Sheet<'_>,
+    partition: &Partition,
+    images: &Images,
+    beyond: &Beyond,
+    regions: usize,
+) -> Vec<Violation> {
+    let dof = partition.labels.grid.dof();
+    let violation = |region: usize, [pose, twin]: [&[f64]; 2]| {
+        let q = sheet.joints(pose)?[..dof].to_vec();
+        Some(Violation { region: region + 1, q, poses: [pose.to_vec(), twin.to_vec()] })
+    };
+    let on_grid = |region: usize| {
+        let pose = partition.labels.grid.pose(images.within(region)?);
         let mut twin = None;
-        sheet.others(&pose, &joints, |other| {
+        sheet.others(&pose[..dof], &sheet.joints(&pose[..dof])?, |other| {
             if twin.is_none() && partition.labels.region_round(other) == Some(region as u32) {
                 twin = Some(other.to_vec());
             }
         });
-        Some(Violation { region: region + 1, q: joints[..pose.len()].to_vec(), poses: [pose, twin?] })
+        violation(region, [&pose[..dof], &twin?])
     };
-    (0..regions).filter_map(violation).collect()
+    let off_grid = beyond
+        .twins
+        .iter()
+        .filter_map(|(region, [pose, twin])| violation(*region, [&pose[..dof], &twin[..dof]]));
+    (0..regions).filter_map(on_grid).chain(off_grid).collect()
 }
 
 /// Compares the partition with the direct model at random poses.
 fn agreement(sheet: &Sheet<'_>, partition: &Partition, regions: &[Region], samples: usize) -> Agreement {
-    let grid = &partition.labels.grid;
-    let mut agreement = Agreement::default();
-    let mut random = Random::new(0x9e37_79b9_7f4a_7c15);
-    let mut uniform = || random.unit();
-    let inside: Vec<usize> =
-        (0..grid.len()).filter(|&node| partition.labels.region[node] != OUTSIDE).collect();
-    for _ in (0..samples).take_while(|_| !inside.is_empty()) {
-        let node = inside[(uniform() * inside.len() as f64) as usize];
-        let mut pose = grid.pose(node);
-        for (k, x) in pose.iter_mut().enumerate().take(grid.axes()) {
-            *x += grid.step[k] * (uniform() - 0.5);
-        }
-        let pose = &pose[..grid.axes()];
-        let Some(joints) = sheet.joints(pose) else { continue };
-        agreement.samples += 1;
-        let Some(region) = partition.labels.region_round(pose).filter(|r| (*r as usize) < regions.len())
-        else {
-            continue;
-        };
+    let poses = random_poses(&partition.labels, samples);
+    let looked_at = |pose: &Pose| {
+        let pose = &pose[..partition.labels.grid.dof()];
+        let joints = sheet.joints(pose)?;
+        let round = partition.labels.region_round(pose).map(|region| region as usize);
+        let away = round.filter(|region| *region < regions.len()).map(|region| {
+            let mut count = 1;
+            sheet.others(pose, &joints, |_| count += 1);
+            (region, count)
+        });
+        Some((pose.to_vec(), away))
+    };
+    let all: Vec<_> = poses.par_iter().filter_map(looked_at).collect();
+    let mut agreement = Agreement { samples: all.len(), ..Agreement::default() };
+    for (pose, (region, solutions)) in all.into_iter().filter_map(|(pose, away)| Some((pose, away?))) {
         agreement.away += 1;
-        let mut count = 1;
-        sheet.others(pose, &joints, |_| count += 1);
-        if count == regions[region as usize].solutions {
+        if solutions == regions[region].solutions {
             agreement.agree += 1;
         } else {
-            let (pose, region) = (pose.to_vec(), region as usize + 1);
-            agreement.disagreements.push(Disagreement { pose, region, solutions: count, distance: None });
+            agreement.disagreements.push(Disagreement {
+                pose,
+                region: region + 1,
+                solutions,
+                distance: None,
+            });
         }
     }
     agreement
+}
+
+/// Poses drawn evenly from the cells of nodes of the aspect.
+fn random_poses(labels: &Labels, count: usize) -> Vec<Pose> {
+    let grid = &labels.grid;
+    let inside: Vec<usize> = (0..grid.len()).filter(|&node| labels.region[node] != OUTSIDE).collect();
+    let mut random = Random::new(0x9e37_79b9_7f4a_7c15);
+    let mut draw = || {
+        let mut pose = grid.pose(inside[(random.unit() * inside.len() as f64) as usize]);
+        for axis in 0..grid.axes() {
+            pose[grid.coordinate(axis)] += grid.step[axis] * (random.unit() - 0.5);
+        }
+        pose
+    };
+    (0..count).take_while(|_| !inside.is_empty()).map(|_| draw()).collect()
 }

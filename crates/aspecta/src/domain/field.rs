@@ -6,7 +6,7 @@ use crate::kinematics::WorkingMode;
 use crate::kinematics::leg::drive;
 use crate::kinematics::limits::margin;
 use crate::kinematics::modal::{Constraint, LegClosure, ModalRows, closures};
-use crate::kinematics::placement::{Placement, leg_gradient, wrench};
+use crate::kinematics::placement::{Placement, leg_gradient, moved, wrench};
 use crate::num::{Interval, Jet, Scalar, each, without_turns};
 use crate::robot::{Robot, Window};
 use nalgebra::{SMatrix, SVector};
@@ -288,8 +288,8 @@ impl<const D: usize, const N: usize> Field<'_, D, N> {
         (0..N).map(gap).fold(0.0, f64::max)
     }
 
-    /// The solution of f(X, q) = 0 near x, by Newton's method.
-    /// `None` unless the steps shrink from the first on, each to a half at most.
+    /// The solution of f(X, q) = 0 near x, by Newton's method in displacements ([`moved`]).
+    /// `None` unless the steps, counted in widths of the window, shrink from the first on, each to a half at most.
     pub fn close(&self, x: &[f64; N], q: &[f64; N]) -> Option<[f64; N]> {
         let mut at = *x;
         let mut last = f64::INFINITY;
@@ -305,9 +305,8 @@ impl<const D: usize, const N: usize> Field<'_, D, N> {
                 (0..N).for_each(|k| a[(j, k)] = row[k]);
             }
             let step = solve(a, f)?;
-            let next: [f64; N] = std::array::from_fn(|k| at[k] - step[k]);
-            let size = self.distance(&at, &next);
-            at = next;
+            let size = norm(&std::array::from_fn::<_, N, _>(|k| step[k] / self.width(k)));
+            at = moved::<D, N>(self.robot.platform, &at, &step.map(|z| -z).into());
             if size < 1e-15 || (size < 1e-9 && size >= 0.5 * last) {
                 return Some(at);
             }

@@ -1,40 +1,69 @@
 //! A uniform grid of poses.
 
+use crate::num::without_turns;
 use crate::robot::Window;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
-/// Nodes at the centres of equal cells that fill a box of poses, up to three coordinates.
+/// Pose coordinates; those beyond the robot's are 0.
+pub type Pose = [f64; 6];
+
+/// How near the held coordinates of a pose are to their values if it lies on the slice: rad or length units, relative to values
+/// greater than 1.
+const ON_SLICE: f64 = 1e-9;
+
+/// Nodes at the centres of equal cells that fill a box of poses, with up to three coordinates that vary (axes).
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Grid {
     lo: [f64; 3],
-    /// Width of a cell, per coordinate.
+    /// Width of a cell, per axis.
     pub step: [f64; 3],
-    /// Cells, per coordinate.
+    /// Cells, per axis.
     pub count: [usize; 3],
-    /// Which coordinates close up on themselves.
+    /// Which axes close up on themselves.
     wraps: [bool; 3],
     glued: [bool; 3],
     axes: usize,
+    /// What a slice holds; empty for whole workspaces, which alone are kept in files.
+    #[serde(skip)]
+    held: Vec<Held>,
+}
+
+/// A coordinate that is held.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Held {
+    coordinate: usize,
+    value: f64,
+    angle: bool,
+    /// What counts as a cell along it, for poses that leave the slice.
+    cell: f64,
 }
 
 impl Grid {
-    /// Cells of about 1/`cells` of the window's width over `bounds`.
-    pub fn new(window: &Window, bounds: &[(f64, f64)], cells: usize) -> Self {
+    /// Cells of about 1/`cells` of the window's width over `bounds`, where the window does not hold the coordinate. `whole` is the window
+    /// without anything held.
+    pub fn new(window: &Window, whole: &Window, bounds: &[(f64, f64)], cells: usize) -> Self {
+        let width = |(lo, hi): (f64, f64)| hi - lo;
+        let held = |(coordinate, value): (usize, f64)| {
+            let cell = width(whole.ranges[coordinate]) / cells as f64;
+            Held { coordinate, value, angle: window.angles[coordinate], cell }
+        };
+        let coordinates = window.axes();
         let mut grid = Self {
             lo: [0.0; 3],
             step: [1.0; 3],
             count: [1; 3],
             wraps: [false; 3],
             glued: [false; 3],
-            axes: bounds.len(),
+            axes: coordinates.len(),
+            held: window.held().map(held).collect(),
         };
-        for (k, &(lo, hi)) in bounds.iter().enumerate() {
-            let whole = window.ranges[k].1 - window.ranges[k].0;
-            grid.count[k] = (((hi - lo) / whole * cells as f64).ceil() as usize).max(1);
-            (grid.lo[k], grid.step[k]) = (lo, (hi - lo) / grid.count[k] as f64);
-            grid.glued[k] = window.glued[k];
-            grid.wraps[k] = window.glued[k] && hi - lo > TAU - 1e-9;
+        for (axis, k) in coordinates.into_iter().enumerate() {
+            let (lo, hi) = bounds[k];
+            grid.count[axis] = (((hi - lo) / width(window.ranges[k]) * cells as f64).ceil() as usize).max(1);
+            (grid.lo[axis], grid.step[axis]) = (lo, (hi - lo) / grid.count[axis] as f64);
+            grid.glued[axis] = window.glued[k];
+            grid.wraps[axis] = window.glued[k] && hi - lo > TAU - 1e-9;
         }
         grid
     }
@@ -42,7 +71,10 @@ impl Grid {
     /// Whether it is a grid over poses with so many coordinates: one that is read may be anything.
     pub(super) fn is_sound(&self, axes: usize) -> bool {
         let positive = |k: usize| self.step[k] > 0.0 && self.step[k].is_finite() && self.lo[k].is_finite();
-        self.axes == axes && axes <= 3 && (0..3).all(|k| positive(k) && self.count[k] > 0)
+        self.axes == axes
+            && self.held.is_empty()
+            && axes <= 3
+            && (0..3).all(|k| positive(k) && self.count[k] > 0)
     }
 
     /// Number of nodes.
@@ -55,10 +87,46 @@ impl Grid {
         self.step[..self.axes].iter().product()
     }
 
-    /// The pose at a node: the first coordinates, as many as there are.
-    pub fn pose(&self, node: usize) -> [f64; 3] {
+    /// The pose at a node.
+    pub fn pose(&self, node: usize) -> Pose {
         let at = self.indices(node);
-        std::array::from_fn(|k| self.lo[k] + self.step[k] * (at[k] as f64 + 0.5))
+        self.pose_at(|axis| self.lo[axis] + self.step[axis] * (at[axis] as f64 + 0.5))
+    }
+
+    /// The pose of the slice with these coordinates along the axes.
+    fn pose_at(&self, along: impl Fn(usize) -> f64) -> Pose {
+        let mut pose = [0.0; 6];
+        (0..self.axes).for_each(|axis| pose[self.coordinate(axis)] = along(axis));
+        self.held.iter().for_each(|held| pose[held.coordinate] = held.value);
+        pose
+    }
+
+    /// The coordinate that an axis is.
+    pub fn coordinate(&self, axis: usize) -> usize {
+        // Held coordinates ascend: each at or before the one looked for moves it on.
+        self.held.iter().fold(axis, |k, held| k + usize::from(held.coordinate <= k))
+    }
+
+    /// Coordinates of a pose, the held ones too.
+    pub fn dof(&self) -> usize {
+        self.axes + self.held.len()
+    }
+
+    /// What counts as a cell along each coordinate, the held ones too; infinite beyond the last.
+    pub fn cell(&self) -> Pose {
+        let mut cell = [f64::INFINITY; 6];
+        (0..self.axes).for_each(|axis| cell[self.coordinate(axis)] = self.step[axis]);
+        self.held.iter().for_each(|held| cell[held.coordinate] = held.cell);
+        cell
+    }
+
+    /// Whether a pose lies on the slice, if it is one.
+    fn is_on_slice(&self, pose: &[f64]) -> bool {
+        self.held.iter().all(|held| {
+            let gap = pose[held.coordinate] - held.value;
+            let gap = if held.angle { without_turns(gap) } else { gap };
+            gap.abs() <= ON_SLICE * held.value.abs().max(1.0)
+        })
     }
 
     fn indices(&self, node: usize) -> [usize; 3] {
@@ -103,24 +171,33 @@ impl Grid {
     }
 
     /// The pose at a node, turned by full turns to be next to another pose.
-    pub fn turned_to(&self, near: &[f64; 3], node: usize) -> [f64; 3] {
-        let pose = self.pose(node);
-        std::array::from_fn(|k| {
-            let turns = if self.glued[k] { ((near[k] - pose[k]) / TAU).round() } else { 0.0 };
-            pose[k] + turns * TAU
-        })
+    pub fn turned_to(&self, near: &Pose, node: usize) -> Pose {
+        self.beside(near, &self.pose(node))
     }
 
-    /// Coordinates.
+    /// A pose, turned by full turns to be next to another.
+    pub fn beside(&self, near: &Pose, pose: &Pose) -> Pose {
+        let mut pose = *pose;
+        for k in (0..self.axes).filter(|&axis| self.glued[axis]).map(|axis| self.coordinate(axis)) {
+            pose[k] += ((near[k] - pose[k]) / TAU).round() * TAU;
+        }
+        pose
+    }
+
+    /// Coordinates that vary.
     pub fn axes(&self) -> usize {
         self.axes
     }
 
-    /// The nodes round a pose: the corners of the box of neighbouring nodes that holds it. Fewer at the edge of the grid.
+    /// The nodes round a pose: the corners of the box of neighbouring nodes that holds it. Fewer at the edge of the grid, none off
+    /// the slice.
     pub fn around(&self, pose: &[f64], mut visit: impl FnMut(usize)) {
+        if !self.is_on_slice(pose) {
+            return;
+        }
         let mut low = [0i64; 3];
         for k in 0..self.axes {
-            let mut x = pose[k] - self.lo[k];
+            let mut x = pose[self.coordinate(k)] - self.lo[k];
             if self.glued[k] {
                 x = x.rem_euclid(TAU);
             }

@@ -39,7 +39,7 @@ impl Partition {
     fn images_of(&self, regions: &[Region], node: usize) -> (BTreeSet<u32>, bool) {
         let (mut images, mut sure) = (BTreeSet::new(), self.labels.is_inner(node));
         for other in self.others(node) {
-            let other = &other[..self.labels.grid.axes()];
+            let other = &other[..self.labels.grid.dof()];
             // A pose with the same joint vector has the same count; if the nodes round it do not, it lies in a sliver between them.
             let alike = |r: &u32| *r != OUTSIDE && regions[*r as usize].solutions == self.solutions[node];
             let round = self.labels.region_round(other).filter(alike);

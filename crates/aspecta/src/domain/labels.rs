@@ -1,6 +1,6 @@
 //! What is known of an aspect once it is cut up: a region at every node of a grid.
 
-use super::grid::Grid;
+use super::grid::{Grid, Pose};
 use super::sheet::Sheet;
 use crate::num::padded;
 use std::collections::BTreeSet;
@@ -57,8 +57,8 @@ impl Labels {
         let others = sheet.all_others(pose)?;
         let from = padded(pose);
         let is_fit = |region: u32| solutions(region).is_none_or(|n| usize::from(n) == others.len() + 1);
-        let is_open = |node: usize, to: [f64; 3]| {
-            let there = sheet.all_others(&to[..self.grid.axes()])?;
+        let is_open = |node: usize, to: Pose| {
+            let there = sheet.all_others(&to[..self.grid.dof()])?;
             sheet.follow(&self.grid, (from, &others), (to, &there), 3).map(|_| self.region[node])
         };
         let near = self.nearest(pose).into_iter().filter(|&(node, _)| is_fit(self.region[node]));
@@ -66,17 +66,17 @@ impl Labels {
     }
 
     /// The nodes of the aspect at most two cells from the cell of a pose, the nearest first, with their poses next to it.
-    pub(super) fn nearest(&self, pose: &[f64]) -> Vec<(usize, [f64; 3])> {
-        let from = padded(pose);
+    pub(super) fn nearest(&self, pose: &[f64]) -> Vec<(usize, Pose)> {
+        let (from, cell) = (padded(pose), self.grid.cell());
         let mut centre = None;
         self.grid.around(pose, |node| centre = Some(node));
         let Some(centre) = centre else { return Vec::new() };
-        let mut nodes: Vec<(f64, usize, [f64; 3])> = Vec::new();
+        let mut nodes: Vec<(f64, usize, Pose)> = Vec::new();
         let mut add = |node: usize| {
             if self.region[node] != OUTSIDE {
                 let to = self.grid.turned_to(&from, node);
-                let gap = |k: usize| ((to[k] - from[k]) / self.grid.step[k]).powi(2);
-                nodes.push(((0..self.grid.axes()).map(gap).sum(), node, to));
+                let gap = |k: usize| ((to[k] - from[k]) / cell[k]).powi(2);
+                nodes.push(((0..self.grid.dof()).map(gap).sum(), node, to));
             }
         };
         add(centre);

@@ -11,6 +11,7 @@ pub use file::{MAP_VERSION, MapError};
 
 use super::boundary::Face;
 use super::field::Field;
+use super::grid::Pose;
 use super::labels::OUTSIDE;
 use super::mesh::Surfaces;
 use super::result::Domains;
@@ -185,7 +186,7 @@ impl Map {
     }
 
     /// Whether the segment between two poses is proved to stay in a class.
-    fn is_joined(&self, class: &MappedClass, pose: &[f64], node: &[f64; 3]) -> bool {
+    fn is_joined(&self, class: &MappedClass, pose: &[f64], node: &Pose) -> bool {
         let demand = Demand::class(class.mode, class.det_a.factor());
         Along::is_inside(&self.robot, &demand, [pose, &node[..pose.len()]], EFFORT)
     }

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(into = "Packed", from = "Packed")]
 pub struct Mesh {
-    /// The vertices.
+    /// The vertices: poses, on a slice their coordinates that vary.
     pub vertices: Vec<Vec<f64>>,
     /// Per vertex of a characteristic surface, the pose on the boundary with the same joint vector; empty for a boundary.
     pub sources: Vec<Vec<f64>>,
@@ -49,6 +49,15 @@ impl Surfaces {
     pub fn new(boundary: &Boundary, characteristic: &Characteristic) -> Self {
         let given_up = characteristic.given_up;
         Self { boundary: boundary.into(), characteristic: characteristic.into(), given_up }
+    }
+
+    /// The meshes on a slice: a boundary, and what [`slice::surfaces`](super::slice::surfaces) found.
+    pub fn on_slice(boundary: &Boundary, characteristic: Mesh) -> Self {
+        let mut boundary_mesh = Mesh::from(boundary);
+        for pose in &mut boundary_mesh.vertices {
+            *pose = boundary.axes.iter().map(|&k| pose[k]).collect();
+        }
+        Self { boundary: boundary_mesh, characteristic, given_up: GivenUp::default() }
     }
 }
 

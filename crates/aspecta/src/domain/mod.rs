@@ -20,6 +20,7 @@ mod mesh;
 mod partition;
 mod result;
 mod sheet;
+pub mod slice;
 mod uniqueness;
 
 pub use analysis::domains;

@@ -1,6 +1,6 @@
 //! Basic regions on a grid, and which of their images coincide.
 
-use super::grid::Grid;
+use super::grid::{Grid, Pose};
 use super::labels::{Labels, OUTSIDE};
 use super::sheet::{Match, Sheet};
 use crate::aspect::UnionFind;
@@ -22,7 +22,7 @@ pub struct Partition {
     pub solutions: Vec<u8>,
     /// Where the other poses of each node begin in `others`, and where they end.
     first: Vec<u32>,
-    others: Vec<[f64; 3]>,
+    others: Vec<Pose>,
     /// Nodes at which the direct model failed: they count as having one solution.
     pub failed: usize,
 }
@@ -79,7 +79,7 @@ impl Partition {
             let chunk = chunk * CHUNK..((chunk + 1) * CHUNK).min(nodes);
             let mut solved = (Vec::with_capacity(CHUNK), Vec::new(), 0);
             for node in chunk.clone() {
-                let pose = &grid.pose(node)[..grid.axes()];
+                let pose = &grid.pose(node)[..grid.dof()];
                 let joints = sheet.joints(pose).filter(|_| !control.is_cancelled());
                 let before = solved.1.len();
                 if let Some(joints) = &joints {
@@ -109,7 +109,7 @@ impl Partition {
     }
 
     /// The other poses of the aspect with a node's joint vector.
-    pub fn others(&self, node: usize) -> &[[f64; 3]] {
+    pub fn others(&self, node: usize) -> &[Pose] {
         &self.others[self.first[node] as usize..self.first[node + 1] as usize]
     }
 
@@ -141,7 +141,7 @@ impl Partition {
             for (i, other) in self.others(node).iter().enumerate() {
                 let round = self
                     .labels
-                    .region_round(&other[..self.labels.grid.axes()])
+                    .region_round(&other[..self.labels.grid.dof()])
                     .and_then(|region| any_node.get(&region));
                 if let Some(&at) = round.filter(|&&at| self.are_alike(node, at)) {
                     sets.union((nodes + self.first[node] as usize + i) as u32, at as u32);

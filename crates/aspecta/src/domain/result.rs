@@ -6,7 +6,7 @@ use super::sheet::Sheet;
 use crate::aspect::{Analysis, DetSign, Measure};
 use crate::kinematics::WorkingMode;
 use crate::num::without_turns;
-use crate::robot::Window;
+use crate::robot::{Unbounded, Window};
 use serde::{Deserialize, Serialize};
 
 /// How finely an aspect is partitioned.
@@ -35,12 +35,9 @@ pub enum DomainError {
         /// How many there are.
         count: usize,
     },
-    /// A slice.
-    #[error(
-        "a joint vector of a pose in a slice means poses outside the slice too: analyse the robot without --fix \
-         to find its domains"
-    )]
-    Slice,
+    /// Nothing bounds a coordinate, if only a slice does not vary it: the other poses of a joint vector may be anywhere.
+    #[error(transparent)]
+    Unbounded(#[from] Unbounded),
     /// Too many nodes.
     #[error("a grid of {nodes} nodes is too large (at most {most}): ask for fewer cells")]
     TooFine {
@@ -55,6 +52,10 @@ pub enum DomainError {
 }
 
 /// The basic regions and uniqueness domains of one aspect. Numerical, true to a cell of the grid.
+///
+/// Of an aspect of a slice they are those of the class (working mode and sign of det A) in the whole workspace, as far as they meet the
+/// slice: the class is taken for one aspect of the whole, which no slice can tell. If it is several, each region is still part of one basic region or
+/// a piece of one, and the uniqueness domains are still such that a joint vector means one pose.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Domains {
     /// The aspect: [`crate::aspect::Aspect::id`].
@@ -78,7 +79,14 @@ pub struct Domains {
     pub adjacent: Vec<(usize, usize)>,
     /// Pairs of regions whose images have joint vectors in common.
     pub coincidences: Vec<Coincidence>,
-    /// The maximal uniqueness domains, largest first.
+    /// On a slice, pairs of regions seen to be parts of one basic region, joined outside the slice.
+    #[serde(default)]
+    pub joined: Vec<(usize, usize)>,
+    /// On a slice, pairs of regions with the same number of solutions whose images may coincide or be disjoint: no way tried has shown which.
+    #[serde(default)]
+    pub undecided: Vec<(usize, usize)>,
+    /// The maximal uniqueness domains, largest first. On a slice, its parts of uniqueness domains: none holds two regions of which it is
+    /// undecided whether their images coincide, so there may be larger ones.
     pub uniqueness: Vec<UniquenessDomain>,
     /// Whether `uniqueness` holds all of them.
     pub complete: bool,
@@ -109,12 +117,13 @@ impl Domains {
     /// Finds out how far from the characteristic surfaces partition and direct model disagree: within a cell or two it is the grid that is
     /// too coarse.
     pub fn measure_disagreements(&mut self, surfaces: &Mesh, window: &Window) {
+        let axes = window.axes();
         let apart = |pose: &[f64], vertex: &[f64]| {
-            let part = |k: usize| {
-                let gap = pose[k] - vertex[k];
-                (if window.glued[k] { without_turns(gap) } else { gap }).abs() / self.cell[k]
+            let part = |(axis, &k): (usize, &usize)| {
+                let gap = pose[k] - vertex[axis];
+                (if window.glued[k] { without_turns(gap) } else { gap }).abs() / self.cell[axis]
             };
-            (0..pose.len()).map(part).fold(0.0, f64::max)
+            axes.iter().enumerate().map(part).fold(0.0, f64::max)
         };
         for found in &mut self.agreement.disagreements {
             found.distance =
@@ -135,7 +144,7 @@ pub struct BasicRegion {
     pub number: usize,
     /// Measure.
     pub measure: f64,
-    /// Direct solutions in the aspect of each of its joint vectors.
+    /// Direct solutions in the aspect of each of its joint vectors; on a slice, in the class, outside the slice too.
     pub solutions: u8,
     /// A pose in it.
     pub pose: Vec<f64>,
@@ -156,8 +165,8 @@ pub struct Coincidence {
     /// Their numbers.
     pub regions: (usize, usize),
     /// The share of the first region's joint vectors that have a pose in the second, and the other way round, away from the
-    /// surfaces. By the consequence of Theorem 2 both are 1.
-    pub shares: (f64, f64),
+    /// surfaces. By the consequence of Theorem 2 both are 1. `None` if the images were seen to coincide outside a slice.
+    pub shares: Option<(f64, f64)>,
 }
 
 /// Wu_ik.

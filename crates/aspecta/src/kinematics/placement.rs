@@ -1,7 +1,7 @@
 //! Where the platform puts the attachment points, and how a force at one acts on the platform.
 
 use super::minors;
-use crate::num::{Interval, Jet, Scalar, dot, dot_constant, each};
+use crate::num::{Interval, Jet, Scalar, dot, dot_constant, each, without_turns};
 use crate::robot::{Leg, Platform};
 
 /// The platform's frame in the base: C_i = origin + rotation · c_i.
@@ -147,6 +147,21 @@ pub fn roll_pitch_yaw<const D: usize>(r: &[[f64; D]; D]) -> [f64; 3] {
     let (s, c) = yaw.sin_cos();
     let row = |k: usize| c * r[1][k] - s * r[0][k];
     [(-row(low)).atan2(row(1)), pitch, yaw]
+}
+
+/// The pose displaced by z ([`Placement::displaced`]); roll and yaw stay near what they were.
+pub fn moved<const D: usize, const N: usize>(platform: Platform, pose: &[f64; N], z: &[f64; N]) -> [f64; N] {
+    let mut to: [f64; N] = each!(|k| pose[k] + z[k]);
+    if !platform.turns_in_space() {
+        return to;
+    }
+    let placement = Placement::<f64, D>::at(platform, pose).displaced(platform, z, &z.map(f64::sin_cos));
+    if let Some(r) = placement.rotation() {
+        for (k, angle) in (N - 3..N).zip(roll_pitch_yaw(r)) {
+            to[k] = pose[k] + without_turns(angle - pose[k]);
+        }
+    }
+    to
 }
 
 /// A base vector in the leg's frame.

@@ -42,7 +42,7 @@ use serde::Serialize;
 use std::cmp::Ordering;
 
 /// More than any platform has, to leave room for doubtful near-double poses.
-const CAPACITY: usize = 48;
+pub(crate) const CAPACITY: usize = 48;
 
 /// With locked actuators the platform still moves.
 #[derive(Clone, Copy, Debug)]

@@ -1,10 +1,9 @@
 //! How near a singularity a refused step ends. Numerical throughout.
 
-use super::newton::moved;
 use super::refusal::Refusal;
 use super::tube::{Located, Model, Proof, plain};
 use crate::kinematics::WorkingMode;
-use crate::kinematics::placement::{Placement, determinant, leg_gradient_turned};
+use crate::kinematics::placement::{Placement, determinant, leg_gradient_turned, moved};
 use nalgebra::SVector;
 
 /// Displacement (in units) of the difference quotient of det A.
@@ -68,7 +67,7 @@ impl<const D: usize, const N: usize> Model<'_, D, N> {
         let speed = (0..N).fold(0.0, |most: f64, k| most.max(velocity[k].abs() / self.unit[k]));
         let dt = APART / speed.max(f64::MIN_POSITIVE);
         let det_at = |dt: f64| {
-            let pose = moved::<D, N>(self.robot.platform, &at.pose, &(velocity * dt));
+            let pose = moved::<D, N>(self.robot.platform, &at.pose, &(velocity * dt).into());
             let q = std::array::from_fn(|j| at.q[j] + dt * (goal[j] - start[j]));
             let (_, a) = self.linearised(&pose, &q, &plain(&self.turns(&q)));
             determinant(&std::array::from_fn::<_, N, _>(|j| std::array::from_fn::<_, N, _>(|k| a[(j, k)])))

@@ -2,8 +2,7 @@
 
 use super::tube::{Model, Turn};
 use crate::kinematics::leg::equation_turned;
-use crate::kinematics::placement::{Placement, leg_gradient_turned, roll_pitch_yaw, wrench};
-use crate::robot::Platform;
+use crate::kinematics::placement::{Placement, leg_gradient_turned, moved, wrench};
 use nalgebra::{SMatrix, SVector};
 
 /// Chord steps after the one Newton step with a fresh Jacobian.
@@ -25,15 +24,15 @@ impl<const D: usize, const N: usize> Model<'_, D, N> {
         turns: &[Turn<f64>; N],
     ) -> Option<Root<N>> {
         let platform = self.robot.platform;
-        let predicted = moved::<D, N>(platform, pose, &-(inverse * self.residual(pose, q, turns)));
+        let predicted = moved::<D, N>(platform, pose, &(-(inverse * self.residual(pose, q, turns))).into());
         let (f, a) = self.linearised(&predicted, q, turns);
         let inverse = a.try_inverse()?;
         let step = -(inverse * f);
-        let mut pose = moved::<D, N>(platform, &predicted, &step);
+        let mut pose = moved::<D, N>(platform, &predicted, &step.into());
         let mut last = self.length(&step);
         for _ in 0..MOST_CHORDS {
             let step = -(inverse * self.residual(&pose, q, turns));
-            pose = moved::<D, N>(platform, &pose, &step);
+            pose = moved::<D, N>(platform, &pose, &step.into());
             let length = self.length(&step);
             // Steps shrink by one factor: the next would be lost in rounding.
             if length * length <= 0.5 * f64::EPSILON * last {
@@ -82,31 +81,4 @@ impl<const D: usize, const N: usize> Model<'_, D, N> {
         }
         (f, a)
     }
-}
-
-/// The pose displaced by z ([`Placement::displaced`]); roll and yaw stay near what they were.
-pub(super) fn moved<const D: usize, const N: usize>(
-    platform: Platform,
-    pose: &[f64; N],
-    z: &SVector<f64, N>,
-) -> [f64; N] {
-    let mut to: [f64; N] = std::array::from_fn(|k| pose[k] + z[k]);
-    if !platform.turns_in_space() {
-        return to;
-    }
-    let z: [f64; N] = std::array::from_fn(|k| z[k]);
-    let turn = z.map(f64::sin_cos);
-    let placement = Placement::<f64, D>::at(platform, pose).displaced(platform, &z, &turn);
-    if let Some(r) = placement.rotation() {
-        let angles = roll_pitch_yaw(r);
-        for (k, angle) in (N - 3..N).zip(angles) {
-            to[k] = near(angle, pose[k]);
-        }
-    }
-    to
-}
-
-/// The angle plus the full turns that bring it nearest to `other`.
-pub(super) fn near(angle: f64, other: f64) -> f64 {
-    other + crate::num::without_turns(angle - other)
 }
