@@ -15,6 +15,8 @@ const TASKS: u64 = 32;
 const TRIES: usize = 500;
 /// Rounds without any pose in the class after which none is expected.
 const PATIENCE: u64 = 16;
+/// Poses that a roadmap begins with where draws have found none.
+const SEEDS: usize = 16;
 /// Components that a new pose is joined to at most.
 const NEAR: usize = 8;
 /// Steps of a component into the unknown, and towards another.
@@ -46,6 +48,17 @@ impl<'a> Growth<'a> {
         let mut roadmap = Roadmap::default();
         let targets = targets.iter().map(|pose| roadmap.add(*pose, true)).collect();
         Self { territory, roadmap, targets, samples: 0, rounds: 0 }
+    }
+
+    /// Adds those poses that are proved to lie in the class, [`SEEDS`] at most; whether there are any.
+    pub fn plant(&mut self, poses: impl Iterator<Item = Pose>) -> bool {
+        let territory = &self.territory;
+        let members = poses.filter(|pose| territory.seems_to_hold(pose) && territory.proof.holds(pose, pose));
+        members.take(SEEDS).for_each(|pose| {
+            self.roadmap.add(pose, true);
+        });
+        self.roadmap.name_components();
+        self.roadmap.len() > 0
     }
 
     /// Grows until all targets are joined (with none: as long as it may).

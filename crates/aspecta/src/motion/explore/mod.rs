@@ -15,6 +15,8 @@
 //! way is followed along the shortest rotation in short segments. It passes the poles of the pitch, which no open set of poses is cut by, at the side, or
 //! straight through, the pitch going on past ±π/2 (the same orientation has other coordinates there).
 //!
+//! Where no pose drawn at random lies in a class, direct solutions of joint vectors drawn within the actuators' limits are tried.
+//!
 //! Growth is in rounds of tasks, each with random numbers of its own, that see the roadmap as it was before the round: without a time budget the result does not
 //! depend on the number of threads.
 
@@ -23,6 +25,7 @@ mod body;
 mod growth;
 mod plan;
 mod roadmap;
+mod seeds;
 mod territory;
 
 pub use assembly::{JoinedSolutions, NumberedSolution, SharedClass, join_solutions};
@@ -34,7 +37,9 @@ use crate::kinematics::demand::Demand;
 use crate::paving::Control;
 use crate::robot::{Platform, Robot, Unbounded, Window};
 use growth::Growth;
+use seeds::Seeds;
 use serde::Serialize;
+use std::cell::LazyCell;
 use std::time::Instant;
 use territory::{Territory, roaming_window};
 
@@ -165,11 +170,15 @@ pub fn explore(
     }
     let modes = if modes.is_empty() { &known[..] } else { modes };
     let (classes, begin) = (classes_of(modes), Instant::now());
+    let seeds = LazyCell::new(|| Seeds::draw(robot, control));
     let explored = |(k, &(mode, det_a)): (usize, &(WorkingMode, DetSign))| {
         let effort = effort.part(k, classes.len());
         let demand = Demand::class(mode, det_a.factor());
         let mut growth = Growth::new(Territory::new(robot, &window, &demand, 0.0), &[]);
-        let end = growth.run(&effort, begin, control);
+        let mut end = growth.run(&effort, begin, control);
+        if end == End::Samples && growth.roadmap.len() == 0 && growth.plant(seeds.of(mode, det_a)) {
+            end = growth.run(&effort, begin, control);
+        }
         growth.summary(mode, det_a, end)
     };
     let classes: Vec<ExploredClass> = classes.iter().enumerate().map(explored).collect();
