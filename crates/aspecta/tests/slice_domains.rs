@@ -156,3 +156,15 @@ fn surfaces_in_space_lie_where_solutions_are_lost() {
     let single = sides.values().filter(|count| **count == 1).count();
     assert!(single < sides.len() / 3, "{single} of {}", sides.len());
 }
+
+/// Of the eight poses of a joint vector of this robot four are at a serial singularity whatever the joint vector. They bound the aspects, and
+/// rounding must not put them inside: each joint vector means one pose of a class.
+#[test]
+fn poses_that_fold_a_leg_are_in_no_aspect() {
+    let analysis = analyzed(&robot("spherical-3-rrr"), &[(1, 0.2)], &["+++"], 6);
+    let id = analysis.classes.iter().find_map(|class| class.aspects.first()).unwrap().id;
+    let found = partitioned(&analysis, id, 40, 2_000);
+    let solutions: Vec<u8> = found.regions.iter().map(|region| region.solutions).collect();
+    assert_eq!((solutions, found.unresolved.parts), (vec![1], 0));
+    assert!(found.agreement.away > 1000 && found.agreement.agree == found.agreement.away);
+}

@@ -2,11 +2,11 @@
 
 use super::boundary::Face;
 use crate::aspect::{Analysis, DetSign, Place};
-use crate::kinematics::WorkingMode;
 use crate::kinematics::leg::drive;
 use crate::kinematics::limits::margin;
 use crate::kinematics::modal::{Constraint, LegClosure, ModalRows, closures};
 use crate::kinematics::placement::{Placement, leg_gradient, moved, wrench};
+use crate::kinematics::{SINGULAR, WorkingMode};
 use crate::num::{Interval, Jet, Scalar, each, without_turns};
 use crate::robot::{Robot, Window};
 use nalgebra::{SMatrix, SVector};
@@ -71,6 +71,20 @@ impl<const D: usize, const N: usize> Field<'_, D, N> {
             positive
         });
         found
+    }
+
+    /// Whether a leg is at its serial singularity, to the tolerance [`SINGULAR`]: rounding may then put it on either side.
+    pub fn is_folded(&self, x: &[f64; N]) -> bool {
+        let mut folded = false;
+        self.visit::<f64>(x, 0, |face, value| {
+            if let Face::Of(Constraint::Reach(j)) = face
+                && let Some(greatest) = self.robot.legs[j].actuator.greatest_reach()
+            {
+                folded |= value <= SINGULAR * SINGULAR * greatest.mid();
+            }
+            !folded
+        });
+        folded
     }
 
     /// The sign of det A at x, whatever that of the class, if all else is positive.

@@ -92,12 +92,14 @@ impl<'a> Sheet<'a> {
         self.belongs.as_ref().is_none_or(|belongs| belongs(pose)).then_some(joints)
     }
 
-    /// g_i(X), if X may be one of the other poses of the aspect: on a slice, of the class.
+    /// g_i(X), if X may be one of the other poses of the aspect: on a slice, of the class. Poses at a serial singularity, which
+    /// the direct model finds to rounding, are on its boundary.
     fn other_joints(&self, pose: &[f64]) -> Option<Joints> {
-        match &self.whole {
+        let joints = match &self.whole {
             Some(whole) => self.joints_within(whole, pose),
             None => self.joints(pose),
-        }
+        }?;
+        (!for_platform!(self.robot.platform, is_folded(self, pose))).then_some(joints)
     }
 
     fn joints_within(&self, window: &Window, pose: &[f64]) -> Option<Joints> {
@@ -258,6 +260,11 @@ fn in_class<const D: usize, const N: usize>(
     let field = Field { window, ..sheet.field::<D, N>(sheet.mode) };
     let x = std::array::from_fn(|k| pose[k]);
     field.violated(&x, &[]).is_none().then(|| padded(&field.joints(&x, &[None; 3])))
+}
+
+/// Whether a leg is at its serial singularity.
+fn is_folded<const D: usize, const N: usize>(sheet: &Sheet<'_>, pose: &[f64]) -> bool {
+    sheet.field::<D, N>(sheet.mode).is_folded(&std::array::from_fn(|k| pose[k]))
 }
 
 /// The joint vector in the other posture of every leg.

@@ -107,6 +107,7 @@ impl<'a, const D: usize, const N: usize> Net<'a, D, N> {
             let Some(other) = self.field.close(&near, &q) else { continue };
             let is = |known: &[f64; N]| self.field.distance(known, &other) < APART;
             let in_class = self.field.violated(&other, &exempt).is_none()
+                && !self.field.is_folded(&other)
                 && self.field.joint_distance(&self.field.joints(&other, &[None; 3]), &q) <= SAME_JOINTS;
             if !in_class || is(&x) || station.others.iter().any(is) {
                 continue;
