@@ -30,7 +30,7 @@ pub struct Domains {
     /// Only aspects with this sign of det A
     #[arg(long, value_name = "SIGN", allow_hyphen_values = true)]
     det: Option<Sign>,
-    /// Only the aspect with this number, as `aspecta analyze` with the same budget numbers them
+    /// Only the aspect with this number, as `aspecta analyze` with the same budget (and --fix, and with that --mode) numbers them
     #[arg(long, value_name = "ID")]
     aspect: Option<usize>,
     /// Hold a coordinate at a value and cut that slice: x=-4, phi=0.5 (radians) or phi=30deg; again, or separated by commas, for several.
@@ -47,7 +47,8 @@ pub struct Domains {
     #[arg(long, value_name = "FILE")]
     save: Option<PathBuf>,
     /// Write pictures into this directory: basic regions, the largest uniqueness domain, basic components and the sheets over joint
-    /// space; for robots with 3 coordinates also the boundary and the characteristic surface as meshes
+    /// space; for robots with 3 coordinates also the boundary and the characteristic surface as meshes. On slices the first two only, of 2 or 3
+    /// free coordinates
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
@@ -82,6 +83,11 @@ impl Domains {
         let source = Source::new(&self.robot)?;
         let wanted = self.wanted(source.robot())?;
         let part = self.part(source.robot(), wanted)?;
+        if self.out.is_some() && part.free(source.robot()) < 2 {
+            return Err(Failure::Input(
+                "--out: there are pictures of two or three free coordinates: free one more, or leave it out for the tables".into(),
+            ));
+        }
         if let Some(directory) = &self.out {
             file::writable(directory).map_err(Failure::in_directory(directory))?;
         }
@@ -90,7 +96,8 @@ impl Domains {
         let (map, stop) = watch::watched(self.threads, |control| {
             source.map(&self.making, part, with_surfaces, control, |analysis| self.ids(analysis, wanted))
         })??;
-        if stop == Some(Stop::Cancelled) {
+        let cancelled = stop == Some(Stop::Cancelled);
+        if cancelled {
             note("cancelled: this is the result so far");
         }
         let is_wanted = |sheet: &&MappedAspect| {
@@ -107,7 +114,7 @@ impl Domains {
             self.draw(out, &map, &sheets, directory)?;
         }
         let sound = sheets.iter().all(|sheet| sheet.domains.violations.is_empty());
-        Ok(Answer::from(!sheets.is_empty() && sound))
+        Ok(Answer::from(!sheets.is_empty() && sound && !cancelled))
     }
 
     fn wanted(&self, robot: &Robot) -> Result<Wanted, Failure> {

@@ -11,6 +11,7 @@ use aspecta::kinematics::WorkingMode;
 use aspecta::paving::{Budget, Control, Stop};
 use aspecta::robot::Robot;
 use clap::Args;
+use std::sync::atomic::Ordering;
 
 /// How a map is computed.
 #[derive(Args)]
@@ -55,7 +56,7 @@ pub struct Part {
 
 impl Part {
     /// Coordinates that are free.
-    fn free(&self, robot: &Robot) -> usize {
+    pub fn free(&self, robot: &Robot) -> usize {
         (0..robot.dof()).filter(|k| self.fix.iter().all(|(held, _)| held != k)).count()
     }
 }
@@ -134,8 +135,19 @@ impl Making {
             }
             Ok::<_, Failure>(MappedAspect { domains, surfaces })
         };
-        let sheets = wanted(&analysis)?.into_iter().map(sheet).collect::<Result<Vec<_>, Failure>>()?;
-        Ok((Map::new(&analysis, sheets), Some(analysis.run.stop)))
+        let (mut sheets, mut stop) = (Vec::new(), analysis.run.stop);
+        for id in wanted(&analysis)? {
+            match sheet(id) {
+                Ok(sheet) => sheets.push(sheet),
+                // What is done is kept.
+                Err(_) if control.cancelled.load(Ordering::Relaxed) => {
+                    stop = Stop::Cancelled;
+                    break;
+                }
+                Err(failure) => return Err(failure),
+            }
+        }
+        Ok((Map::new(&analysis, sheets), Some(stop)))
     }
 }
 

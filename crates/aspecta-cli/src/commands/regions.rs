@@ -70,7 +70,7 @@ fn regions(out: &mut dyn Write, pose: &Labels, window: &Window, found: &Domains)
         let (parts, share) = (found.unresolved.parts, 100.0 * found.unresolved.measure / found.measure);
         writeln!(
             out,
-            "  not resolved: {parts} parts thinner than two cells somewhere, {share:.3} % of the {}; --cells makes them fewer",
+            "  not resolved: {parts} parts thinner than two cells somewhere, {share:.3} % of the {}; more --cells make them fewer",
             unit.name
         )?;
     }

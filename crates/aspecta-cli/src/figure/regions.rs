@@ -32,7 +32,7 @@ const ROOM: f64 = 12.0;
 const CHARACTER: f64 = 6.5;
 const CAPTION: &str = "n: direct solutions in the aspect; regions of one hue have coincident images";
 const SLICE_CAPTION: &str =
-    "n: direct solutions in the class, outside the slice too; regions of one hue have coincident images";
+    "n: direct solutions in the class, on the slice or off it; one hue: coincident images";
 pub(super) const CHARACTERISTIC: &str = "fill:none;stroke:#222;stroke-width:0.6;stroke-linejoin:round";
 
 /// What is drawn: an aspect cut into its regions, and the surfaces that bound them.

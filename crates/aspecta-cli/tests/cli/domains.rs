@@ -91,7 +91,7 @@ fn slices_say_what_is_held_and_where_solutions_are_counted() {
     assert!(expected.iter().all(|part| text.contains(part)), "{text}");
     let picture = fs::read_to_string(directory.path().join("aspect-2-regions.svg")).unwrap();
     let expected =
-        ["y = 0.1 unit, roll = 0.1 rad", "in the class, outside the slice too", "characteristic surface"];
+        ["y = 0.1 unit, roll = 0.1 rad", "in the class, on the slice or off it", "characteristic surface"];
     assert!(expected.iter().all(|part| picture.contains(part)), "{picture}");
     // There is no picture of a joint space of six.
     assert!(!directory.path().join("aspect-2-components.svg").exists());
@@ -116,7 +116,7 @@ fn what_slices_have_not_is_refused() {
     refused("domains gough-stewart", "--fix roll=0,pitch=0,yaw=0");
     refused("domains 3-rrr --fix z=1", "has no coordinate `z`");
     let line = "domains 3-rrr --fix phi=0.3,y=0 --mode +++ --det + --cells 100";
-    refused(&format!("{line} --out x"), "two or three coordinates");
+    refused(&format!("{line} --out x"), "two or three free coordinates");
     assert!(output(line).status.success());
 
     let directory = tempfile::tempdir().unwrap();
