@@ -214,6 +214,11 @@ pub enum DetSign {
 }
 
 impl DetSign {
+    /// The sign of a determinant that is not zero.
+    pub fn of(det_a: f64) -> Self {
+        if det_a > 0.0 { Self::Positive } else { Self::Negative }
+    }
+
     /// The other one.
     pub fn opposite(self) -> Self {
         match self {

@@ -65,7 +65,7 @@ pub fn assembly_modes(analysis: &Analysis, q: &[f64]) -> Result<AssemblyModes, K
     let found = analysis.robot.direct_certified(q)?;
     let complete = found.complete;
     let mode = |(k, solution): (usize, Solution)| {
-        let sign = if solution.det_a > 0.0 { DetSign::Positive } else { DetSign::Negative };
+        let sign = DetSign::of(solution.det_a);
         let class = analysis.class_of(solution.mode, sign).filter(|_| solution.within_limits);
         let aspect = class.and_then(|class| aspect_at(analysis, class, &solution.pose));
         let rank = aspect.and_then(|id| analysis.rank(id));

@@ -199,6 +199,18 @@ impl Leg {
         }
     }
 
+    /// The range of the driven joint, if it has one: rad (about the middle, which is in (−π, π]) or length units.
+    pub fn drive_range(&self) -> Option<(f64, f64)> {
+        self.limits.iter().find_map(|limit| match limit {
+            Limit::ActuatorAngle { middle: (cos, sin), half_cos } => {
+                let (middle, half) = (sin.mid().atan2(cos.mid()), half_cos.mid().acos());
+                Some((middle - half, middle + half))
+            }
+            Limit::ActuatorLength { min, max } => Some((min.mid(), max.mid())),
+            _ => None,
+        })
+    }
+
     /// The limits of a driven length, if it has any: (min, max).
     pub fn length_range(&self) -> Option<(Interval, Interval)> {
         self.limits.iter().find_map(|l| match l {

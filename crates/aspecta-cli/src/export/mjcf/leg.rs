@@ -85,24 +85,12 @@ impl Limb<'_> {
 
     /// q, for angles with limits the one of its turns that lies within them.
     pub fn reading(&self) -> f64 {
-        match self.range() {
+        match self.leg.drive_range() {
             Some((low, high)) if self.leg.actuator.is_angle() => {
                 self.q + TAU * ((0.5 * (low + high) - self.q) / TAU).round()
             }
             _ => self.q,
         }
-    }
-
-    /// The range of the driven joint, if it has one (rad or length).
-    fn range(&self) -> Option<(f64, f64)> {
-        self.leg.limits.iter().find_map(|limit| match limit {
-            Limit::ActuatorAngle { middle: (cos, sin), half_cos } => {
-                let (middle, half) = (sin.mid().atan2(cos.mid()), half_cos.mid().acos());
-                Some((middle - half, middle + half))
-            }
-            Limit::ActuatorLength { min, max } => Some((min.mid(), max.mid())),
-            _ => None,
-        })
     }
 
     fn named(&self, name: &str) -> String {
@@ -136,7 +124,7 @@ impl Limb<'_> {
         let joint =
             Element::new("joint").with("name", self.named("q")).with("type", kind).vector("axis", axis);
         let joint = joint.numbers("ref", &[self.reading()]).numbers("armature", &[self.armature()]);
-        match self.range() {
+        match self.leg.drive_range() {
             Some((low, high)) => joint.numbers("range", &[low, high]),
             None => joint,
         }

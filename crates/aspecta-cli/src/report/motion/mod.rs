@@ -65,7 +65,7 @@ impl<'a> Motion<'a> {
             for sample in samples {
                 let Ok(jacobians) = self.robot.jacobians(&sample.pose, &sample.q) else { continue };
                 let det_a = jacobians.det_a();
-                let sign = if det_a > 0.0 { DetSign::Positive } else { DetSign::Negative };
+                let sign = DetSign::of(det_a);
                 let point = ProfilePoint {
                     segment: before + sample.segment,
                     relative_det_a: det_a,

@@ -70,7 +70,7 @@ impl<'a> Growth<'a> {
             if self.samples >= effort.samples || (self.roadmap.len() == 0 && self.rounds >= PATIENCE) {
                 return End::Samples;
             }
-            if effort.seconds.is_some_and(|most| begin.elapsed().as_secs_f64() >= most) {
+            if effort.is_spent(begin) {
                 return End::Time;
             }
             if control.is_cancelled() {
@@ -165,5 +165,29 @@ impl<'a> Growth<'a> {
                 }
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kinematics::demand::Demand;
+    use crate::motion::explore::territory::roaming_window;
+    use crate::num::padded;
+    use crate::robot::catalogue;
+
+    /// Whatever is offered, only what is proved to lie in the class takes root.
+    #[test]
+    fn poses_of_other_classes_are_not_planted() {
+        let robot = catalogue::find("gough-stewart").unwrap();
+        let window = roaming_window(&robot).unwrap();
+        let q = [1.0, 0.645275, 1.086284, 1.503439, 1.281933, 0.771071];
+        let found = robot.direct(&q).unwrap();
+        let poses = |sign: f64| found.iter().filter(move |s| s.det_a * sign > 0.0).map(|s| padded(&s.pose));
+        let demand = Demand::class(robot.working_modes()[0], 1);
+        let mut growth = Growth::new(Territory::new(&robot, &window, &demand, 0.0), &[]);
+        assert!(!growth.plant(poses(-1.0)) && growth.roadmap.len() == 0);
+        assert!(growth.plant(poses(-1.0).chain(poses(1.0))));
+        assert_eq!(growth.roadmap.len(), poses(1.0).count().min(SEEDS));
     }
 }

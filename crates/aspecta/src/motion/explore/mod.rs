@@ -57,6 +57,11 @@ impl Effort {
     fn part(self, k: usize, count: usize) -> Self {
         Self { seconds: self.seconds.map(|most| most * (k + 1) as f64 / count as f64), ..self }
     }
+
+    /// Whether the time since `begin` is all it may take.
+    fn is_spent(self, begin: Instant) -> bool {
+        self.seconds.is_some_and(|most| begin.elapsed().as_secs_f64() >= most)
+    }
 }
 
 /// The classes of some modes, mode by mode, + before −.
@@ -170,7 +175,7 @@ pub fn explore(
     }
     let modes = if modes.is_empty() { &known[..] } else { modes };
     let (classes, begin) = (classes_of(modes), Instant::now());
-    let seeds = LazyCell::new(|| Seeds::draw(robot, control));
+    let seeds = LazyCell::new(|| Seeds::draw(robot, || control.is_cancelled() || effort.is_spent(begin)));
     let explored = |(k, &(mode, det_a)): (usize, &(WorkingMode, DetSign))| {
         let effort = effort.part(k, classes.len());
         let demand = Demand::class(mode, det_a.factor());

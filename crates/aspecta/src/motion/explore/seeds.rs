@@ -3,10 +3,9 @@
 
 use super::body::Pose;
 use crate::aspect::DetSign;
-use crate::kinematics::WorkingMode;
+use crate::kinematics::{Solution, WorkingMode};
 use crate::num::{Random, padded};
-use crate::paving::Control;
-use crate::robot::{Leg, Limit, Robot};
+use crate::robot::{Leg, Robot};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
@@ -20,20 +19,18 @@ type Seed = (WorkingMode, DetSign, Pose);
 pub(super) struct Seeds(Vec<Seed>);
 
 impl Seeds {
-    /// None if nothing bounds a driven length.
-    pub fn draw(robot: &Robot, control: &Control<'_>) -> Self {
+    /// None if nothing bounds a driven length; fewer if `is_over` says so before the last.
+    pub fn draw(robot: &Robot, is_over: impl Fn() -> bool + Sync) -> Self {
+        let range = |leg: &Leg| leg.drive_range().or(leg.actuator.is_angle().then_some((-PI, PI)));
         let Some(ranges) = robot.legs.iter().map(range).collect::<Option<Vec<_>>>() else {
             return Self(Vec::new());
         };
         let of = |draw: u64| {
-            if control.is_cancelled() {
-                return Vec::new();
-            }
             let random = &mut Random::of(&[draw, DRAWS]);
             let q: Vec<f64> = ranges.iter().map(|&range| random.within(range)).collect();
-            let Ok(found) = robot.direct(&q) else { return Vec::new() };
-            let sign = |det: f64| if det > 0.0 { DetSign::Positive } else { DetSign::Negative };
-            found.iter().map(|s| (s.mode, sign(s.det_a), padded(&s.pose))).collect()
+            let found = if is_over() { None } else { robot.direct(&q).ok() };
+            let seed = |s: &Solution| (s.mode, DetSign::of(s.det_a), padded(&s.pose));
+            found.iter().flat_map(|found| found.iter()).map(seed).collect::<Vec<Seed>>()
         };
         Self((0..DRAWS).into_par_iter().flat_map_iter(of).collect())
     }
@@ -42,19 +39,4 @@ impl Seeds {
     pub fn of(&self, mode: WorkingMode, det_a: DetSign) -> impl Iterator<Item = Pose> {
         self.0.iter().filter(move |seed| (seed.0, seed.1) == (mode, det_a)).map(|seed| seed.2)
     }
-}
-
-/// What a joint may be driven to: rad, or length units.
-fn range(leg: &Leg) -> Option<(f64, f64)> {
-    if !leg.actuator.is_angle() {
-        return leg.length_range().map(|(min, max)| (min.lo, max.hi));
-    }
-    let limited = leg.limits.iter().find_map(|limit| match limit {
-        Limit::ActuatorAngle { middle: (cos, sin), half_cos } => {
-            let (middle, half) = (sin.mid().atan2(cos.mid()), half_cos.mid().acos());
-            Some((middle - half, middle + half))
-        }
-        _ => None,
-    });
-    Some(limited.unwrap_or((-PI, PI)))
 }
