@@ -135,18 +135,17 @@ impl Making {
             }
             Ok::<_, Failure>(MappedAspect { domains, surfaces })
         };
-        let (mut sheets, mut stop) = (Vec::new(), analysis.run.stop);
+        let cancelled = || control.cancelled.load(Ordering::Relaxed);
+        let mut sheets = Vec::new();
         for id in wanted(&analysis)? {
             match sheet(id) {
                 Ok(sheet) => sheets.push(sheet),
                 // What is done is kept.
-                Err(_) if control.cancelled.load(Ordering::Relaxed) => {
-                    stop = Stop::Cancelled;
-                    break;
-                }
+                Err(_) if cancelled() => break,
                 Err(failure) => return Err(failure),
             }
         }
+        let stop = if cancelled() { Stop::Cancelled } else { analysis.run.stop };
         Ok((Map::new(&analysis, sheets), Some(stop)))
     }
 }

@@ -114,7 +114,9 @@ fn sheet(
     let id = format!("{name}-{}", domains.aspect);
     let mut svg = Svg::new(&id, width, height + legend.height() + 12.0, &title);
     svg.text([panels.left, 16.0], Anchor::Start, 13.0, "font-weight:600", &title);
-    svg.text([panels.left, 16.0 + HEADING], Anchor::Start, 11.0, "", &held.join(", "));
+    if !held.is_empty() {
+        svg.text([panels.left, 16.0 + HEADING], Anchor::Start, 11.0, "", &held.join(", "));
+    }
     let [boundary, surface] = [cut.boundary, cut.surface].map(|mesh| Mesh::of_poses(mesh, window));
     for k in 0..count {
         let layer = layers[(2 * k + 1) * layers.len() / (2 * count)];
