@@ -359,17 +359,7 @@ fn three_rpr_characteristic_surfaces() {
 /// Solutions are followed in turns, not in roll, pitch and yaw: along most of the boundary of a spherical robot's aspect.
 #[test]
 fn surfaces_of_a_spherical_robot_hang_together() {
-    let leg = |at: [f64; 3], axis: [f64; 3], zero: [f64; 3], proximal: f64, distal: f64| {
-        format!(
-            "[[legs]]\nattachment = {at:?}\nactuator = {{ kind = \"spherical\", axis = {axis:?}, zero = {zero:?}, \
-             proximal = {{ deg = {proximal:?} }}, distal = {{ deg = {distal:?} }} }}\n"
-        )
-    };
-    let text = "name = \"sphere\"\nplatform = \"turning-body\"\n".to_owned()
-        + &leg([0.0, -1.0, 0.2], [1.0, 0.0, 0.1], [0.0, 1.0, 0.0], 70.0, 80.0)
-        + &leg([0.1, 0.0, -1.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], 75.0, 85.0)
-        + &leg([-1.0, 0.1, 0.0], [0.0, 0.1, 1.0], [1.0, 0.0, 0.0], 60.0, 70.0);
-    let robot = Robot::from_toml(&text, "sphere.toml").unwrap();
+    let robot = Robot::from_toml(include_str!("fixtures/sphere.toml"), "sphere.toml").unwrap();
     let analysis = analyze(&robot, &to_depth(5), &Control::unwatched()).unwrap();
     let (_, class) = class_of(&analysis, "+++", DetSign::Negative);
     let boundary = Boundary::new(&analysis, class.aspects[0].id, 24).unwrap();

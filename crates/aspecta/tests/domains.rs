@@ -130,17 +130,7 @@ fn what_has_no_domains_is_an_error() {
 /// A spherical robot whose direct solutions are up to eight.
 #[test]
 fn a_spherical_robot_is_cut_into_regions() {
-    let leg = |at: [f64; 3], axis: [f64; 3], zero: [f64; 3], proximal: f64, distal: f64| {
-        format!(
-            "[[legs]]\nattachment = {at:?}\nactuator = {{ kind = \"spherical\", axis = {axis:?}, zero = {zero:?}, \
-             proximal = {{ deg = {proximal:?} }}, distal = {{ deg = {distal:?} }} }}\n"
-        )
-    };
-    let text = "name = \"sphere\"\nplatform = \"turning-body\"\n".to_owned()
-        + &leg([0.0, -1.0, 0.2], [1.0, 0.0, 0.1], [0.0, 1.0, 0.0], 70.0, 80.0)
-        + &leg([0.1, 0.0, -1.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], 75.0, 85.0)
-        + &leg([-1.0, 0.1, 0.0], [0.0, 0.1, 1.0], [1.0, 0.0, 0.0], 60.0, 70.0);
-    let robot = Robot::from_toml(&text, "sphere.toml").unwrap();
+    let robot = Robot::from_toml(include_str!("fixtures/sphere.toml"), "sphere.toml").unwrap();
     let analysis = analyzed(&robot, 5);
     let largest = (1..=analysis.aspects.low).map(|id| partitioned(&analysis, id, 20));
     let found = largest.max_by(|a, b| a.measure.total_cmp(&b.measure)).unwrap();

@@ -10,6 +10,7 @@ mod corner;
 mod lattice;
 
 pub(crate) use corner::onto;
+pub(super) use lattice::orders;
 
 use super::field::Field;
 use crate::aspect::{Analysis, Aspect, DetSign, Place};

@@ -74,7 +74,9 @@ pub struct GivenUp {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CharacteristicError {
     /// Held coordinates.
-    #[error("characteristic surfaces leave a slice: analyse the whole workspace, with no coordinate held")]
+    #[error(
+        "the points of the boundary that it comes from lie outside a slice: `domain::slice::surfaces` finds it from within"
+    )]
     Slice,
     /// The boundary belongs to something else.
     #[error("the boundary of aspect {0} was not computed from this analysis: compute it again")]

@@ -82,7 +82,8 @@ impl<const D: usize, const N: usize> Field<'_, D, N> {
             {
                 folded |= value <= SINGULAR * SINGULAR * greatest.mid();
             }
-            !folded
+            // Reaches come before all that depends on them.
+            !folded && matches!(face, Face::Cut { .. } | Face::Of(Constraint::Reach(_)))
         });
         folded
     }

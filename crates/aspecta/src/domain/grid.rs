@@ -71,10 +71,7 @@ impl Grid {
     /// Whether it is a grid over poses with so many coordinates: one that is read may be anything.
     pub(super) fn is_sound(&self, axes: usize) -> bool {
         let positive = |k: usize| self.step[k] > 0.0 && self.step[k].is_finite() && self.lo[k].is_finite();
-        self.axes == axes
-            && self.held.is_empty()
-            && axes <= 3
-            && (0..3).all(|k| positive(k) && self.count[k] > 0)
+        self.axes == axes && axes <= 3 && (0..3).all(|k| positive(k) && self.count[k] > 0)
     }
 
     /// Number of nodes.
@@ -90,11 +87,7 @@ impl Grid {
     /// The pose at a node.
     pub fn pose(&self, node: usize) -> Pose {
         let at = self.indices(node);
-        self.pose_at(|axis| self.lo[axis] + self.step[axis] * (at[axis] as f64 + 0.5))
-    }
-
-    /// The pose of the slice with these coordinates along the axes.
-    fn pose_at(&self, along: impl Fn(usize) -> f64) -> Pose {
+        let along = |axis: usize| self.lo[axis] + self.step[axis] * (at[axis] as f64 + 0.5);
         let mut pose = [0.0; 6];
         (0..self.axes).for_each(|axis| pose[self.coordinate(axis)] = along(axis));
         self.held.iter().for_each(|held| pose[held.coordinate] = held.value);

@@ -265,10 +265,11 @@ fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|k| a[k] - b[k])
 }
 
-/// All orders of m axes.
-fn orders(m: usize) -> Vec<Vec<usize>> {
-    match m {
-        2 => vec![vec![0, 1], vec![1, 0]],
-        _ => [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]].map(Vec::from).into(),
+/// All orders of two or three axes; none of fewer.
+pub(in crate::domain) fn orders(axes: usize) -> &'static [&'static [usize]] {
+    match axes {
+        2 => &[&[0, 1], &[1, 0]],
+        3 => &[&[0, 1, 2], &[0, 2, 1], &[1, 0, 2], &[1, 2, 0], &[2, 0, 1], &[2, 1, 0]],
+        _ => &[],
     }
 }

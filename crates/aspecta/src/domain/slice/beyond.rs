@@ -44,12 +44,6 @@ enum Shown {
     Coincident([Pose; 2]),
 }
 
-impl Shown {
-    fn is_joined(shown: Option<Self>) -> bool {
-        matches!(shown, Some(Self::Joined))
-    }
-}
-
 impl Beyond {
     /// Tries ways between the regions of a slice; `None` for a whole workspace.
     pub fn new(
@@ -72,7 +66,7 @@ impl Beyond {
     /// What follows for all pairs: regions joined to one region are one, and what is known of one holds for all of them.
     fn concluded(count: usize, shown: impl Iterator<Item = ((usize, usize), Option<Shown>)> + Clone) -> Self {
         let mut sets = UnionFind::new(count);
-        for ((a, b), _) in shown.clone().filter(|(_, shown)| Shown::is_joined(*shown)) {
+        for ((a, b), _) in shown.clone().filter(|(_, shown)| matches!(shown, Some(Shown::Joined))) {
             sets.union(a as u32, b as u32);
         }
         let mut roots = |(a, b): (usize, usize)| {

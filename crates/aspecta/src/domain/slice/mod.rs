@@ -11,7 +11,7 @@ mod track;
 
 pub(super) use beyond::Beyond;
 
-use super::boundary::{Face, Simplex};
+use super::boundary::{Face, Simplex, orders};
 use super::grid::Pose;
 use super::labels::{Labels, OUTSIDE};
 use super::mesh::Mesh;
@@ -56,13 +56,6 @@ type Corners = ArrayVec<usize, 4>;
 
 /// The simplices of the cell after a node that lie in the aspect, in more than one region.
 fn cut_simplices(labels: &Labels, node: usize) -> impl Iterator<Item = Corners> + '_ {
-    const FLAT: [&[usize]; 2] = [&[0, 1], &[1, 0]];
-    const SOLID: [&[usize]; 6] = [&[0, 1, 2], &[0, 2, 1], &[1, 0, 2], &[1, 2, 0], &[2, 0, 1], &[2, 1, 0]];
-    let orders = match labels.grid.axes() {
-        2 => &FLAT[..],
-        3 => &SOLID[..],
-        _ => &[],
-    };
     let walked = move |order: &&[usize]| -> Option<Corners> {
         let mut corners = Corners::from_iter([node]);
         for &axis in *order {
@@ -75,7 +68,7 @@ fn cut_simplices(labels: &Labels, node: usize) -> impl Iterator<Item = Corners> 
         corners.iter().all(|node| of(node) != OUTSIDE)
             && corners.iter().any(|node| of(node) != of(&corners[0]))
     };
-    orders.iter().filter_map(walked).filter(is_cut)
+    orders(labels.grid.axes()).iter().filter_map(walked).filter(is_cut)
 }
 
 /// The edges of a simplex whose ends lie in different regions.

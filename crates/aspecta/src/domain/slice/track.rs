@@ -44,10 +44,10 @@ fn lost<const D: usize, const N: usize>(
     let least = 0.5_f64.powi(HALVINGS);
     while t < 1.0 {
         let next = f64::min(t + step, 1.0);
-        let solved = advanced(&field, &x, [&place(t), &place(next)]);
-        match solved
-            .and_then(|(there, back)| if sheet.gap(&x, &back) <= BACK { Ok(there) } else { Err(SINGULAR) })
-        {
+        let returned = |(there, back): ([f64; N], [f64; N])| {
+            if sheet.gap(&x, &back) <= BACK { Ok(there) } else { Err(SINGULAR) }
+        };
+        match advanced(&field, &x, [&place(t), &place(next)]).and_then(returned) {
             Ok(there) => (x, t, step) = (there, next, 2.0 * step),
             Err(face) if step <= least => return Some(Loss { at: t, face }),
             Err(_) => step *= 0.5,
