@@ -53,7 +53,16 @@ pub fn reasons(analysis: &Analysis) -> Vec<String> {
             rods.q[0],
         )
     };
-    if analysis.doubts.is_empty() { Vec::new() } else { analysis.parallel_rods.iter().map(reason).collect() }
+    if analysis.doubts.is_empty() {
+        return Vec::new();
+    }
+    let folds = analysis.uncharted_folds.iter().map(|leg| {
+        format!(
+            "Leg {leg} can fold: its links are equal, or complete each other to half a turn, so that the platform's joint comes onto the \
+             motor's axis, where q{leg} is free. Boxes round these orientations are never decided."
+        )
+    });
+    analysis.parallel_rods.iter().map(reason).chain(folds).collect()
 }
 
 /// The doubts of a kind, those over the most poses first.

@@ -5,6 +5,7 @@ mod split_mix;
 mod sweep;
 
 use aspecta::aspect::{Analysis, AnalysisError, AspectClass, Options, analyze};
+use aspecta::certificate::Claim;
 use aspecta::paving::{Budget, Control, Stop};
 use aspecta::robot::{Leg, Platform, Robot, SliceError, catalogue};
 use aspecta::verify::verify;
@@ -31,7 +32,12 @@ fn check_bounds(analysis: &Analysis) {
     assert!(aspects.high.is_none_or(|high| aspects.low <= high));
     assert_eq!(aspects.low, classes.iter().map(|c| c.low).sum::<usize>());
     assert_eq!(aspects.high, classes.iter().map(|c| c.high).sum::<Option<usize>>());
-    assert_eq!(aspects.certified, doubts.is_empty(), "{doubts:?}");
+    assert_eq!(
+        aspects.certified,
+        doubts.is_empty(),
+        "{aspects:?} {doubts:?} {:?}",
+        classes.iter().map(|c| (c.low, c.high)).collect::<Vec<_>>()
+    );
     for class in classes {
         assert!(class.high.is_none_or(|high| class.low <= high));
         let doubted = doubts.iter().any(|d| (d.mode, d.det_a) == (class.mode, class.det_a));
@@ -108,6 +114,46 @@ fn the_certificate_of_a_slice_is_verified() {
 #[test]
 fn the_certificate_of_a_delta_is_verified() {
     assert_verified(2, "irb-360", &[]);
+}
+
+// A platform that turns about a point: all orientations, in the joint angles of a leg.
+
+/// The generic spherical robot with cranks from 20° to 100°, its legs from `first` on.
+fn sphere(first: usize) -> Robot {
+    let text = include_str!("fixtures/sphere.toml");
+    let limited = text.replace("} }\n", "} }\nlimits = { actuator = { deg = [20, 100] } }\n");
+    let mut robot = Robot::from_toml(&limited, "sphere.toml").unwrap();
+    assert!(robot.legs.iter().all(|leg| leg.limits.len() == 1));
+    robot.legs.rotate_left(first);
+    robot
+}
+
+/// The numbers of the aspects of some modes, det A > 0 and < 0.
+fn in_modes(robot: &Robot, modes: &[&str]) -> Vec<usize> {
+    let modes = modes.iter().map(|mode| mode.parse().unwrap()).collect();
+    let analysis = analyzed(robot, &Options { modes, ..Options::default() });
+    check_bounds(&analysis);
+    assert!(analysis.aspects.certified, "{:?}", analysis.doubts);
+    analysis.classes.iter().map(|class| class.low).collect()
+}
+
+#[test]
+fn a_spherical_robot() {
+    let modes = ["+++", "---", "+-+", "--+"];
+    assert_eq!(in_modes(&sphere(0), &modes), [1, 1, 2, 2, 1, 1, 1, 1]);
+    // The same with the joint angles of other legs. det A keeps its sign as rows are moved round.
+    assert_eq!(in_modes(&sphere(1), &["+++", "---", "-++", "-+-"]), [1, 1, 2, 2, 1, 1, 1, 1]);
+    assert_eq!(in_modes(&sphere(2), &["+++", "---"]), [1, 1, 2, 2]);
+}
+
+#[test]
+fn the_certificate_of_a_spherical_robot_is_verified() {
+    let modes = vec!["---".parse().unwrap()];
+    let analysis = analyzed(&sphere(0), &Options { modes, certificate: true, ..Options::default() });
+    let verdict = verify(&analysis.certificate.unwrap(), &Control::unwatched());
+    assert!(verdict.is_verified(), "{:?}", verdict.faults);
+    assert!(verdict.classes.iter().all(|class| class.proved == Claim { low: 2, high: Some(2) }));
+    assert!(verdict.claims.covered > 1000 && verdict.claims.summitless > 1000, "{:?}", verdict.claims);
 }
 
 // The five-bar of the paper.

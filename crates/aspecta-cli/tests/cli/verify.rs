@@ -67,7 +67,7 @@ fn a_certificate_of_another_robot_does_not_do() {
 fn what_cannot_be_read_is_bad_input() {
     let directory = tempfile::tempdir().unwrap();
     let text = certificate(1).to_json().unwrap();
-    let version = text.replacen("\"certificate_version\":1", "\"certificate_version\":9", 1);
+    let version = text.replacen("\"certificate_version\":2", "\"certificate_version\":9", 1);
     let cases =
         [(&text[..text.len() / 2], "damaged"), ("{}", "not a certificate"), (version.as_str(), "version 9")];
     for (text, complaint) in cases {

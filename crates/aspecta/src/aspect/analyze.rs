@@ -1,7 +1,7 @@
 //! The main job: a robot in, its working modes and generalized aspects out.
 
 use super::ascent::Class;
-use super::atlas::Atlas;
+use super::atlas::{Atlas, Leaf};
 use super::components::{Components, Piece};
 use super::count::{Counted, Group};
 use super::doubt::doubts;
@@ -9,10 +9,12 @@ use super::earlier::{parallel_aspects, serial_aspects};
 use super::measure::{Held, Measure};
 use super::project::{q_bounds, w_bounds};
 use super::result::*;
+use super::seams::centre;
 use super::search::Search;
 use crate::certificate::{Certificate, Claim, Join, Seam};
 use crate::kinematics::WorkingMode;
-use crate::kinematics::parallel_rods::{ParallelRods, parallel_rods};
+use crate::kinematics::chart::uncharted_folds;
+use crate::kinematics::parallel_rods::parallel_rods;
 use crate::paving::{Budget, Control, MODES, Mark, Node, Paving, Progress, Stop};
 use crate::robot::{Actuator, Leg, Robot, SliceError, Window};
 use rayon::prelude::*;
@@ -26,7 +28,7 @@ const HOPELESS_BOXES: u64 = 4_000_000;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
     /// How far the paving goes. Where nothing says when to stop: until the bounds meet, or [`crate::paving::MAX_BOXES`] boxes; 4 million
-    /// where [`Analysis::parallel_rods`] keep the bounds apart.
+    /// where [`Analysis::parallel_rods`] or [`Analysis::uncharted_folds`] keep the bounds apart.
     pub budget: Budget,
     /// Coordinates to hold (index, value), as in [`Robot::slice`]: what is analysed are the poses that have these values.
     pub fix: Vec<(usize, f64)>,
@@ -128,7 +130,8 @@ fn analyze_here(robot: &Robot, options: &Options, control: &Control<'_>) -> Resu
     }
     let modes = if options.modes.is_empty() { &all_modes } else { &options.modes };
     let parallel_rods = parallel_rods(robot, &window);
-    let budget = bounded(options.budget, &parallel_rods);
+    let uncharted_folds: Vec<usize> = uncharted_folds(robot, &window).iter().map(|j| j + 1).collect();
+    let budget = bounded(options.budget, parallel_rods.is_empty() && uncharted_folds.is_empty());
     let mut passes: Vec<Pass> = Vec::new();
     let groups = modes.chunks(MODES);
     for (k, group) in groups.clone().enumerate() {
@@ -173,6 +176,7 @@ fn analyze_here(robot: &Robot, options: &Options, control: &Control<'_>) -> Resu
         classes,
         doubts,
         parallel_rods,
+        uncharted_folds,
         certificate,
         parallel_aspects: parallel,
         serial_aspects: serial,
@@ -245,9 +249,9 @@ impl Pass {
 }
 
 /// The budget, ended early if it names no end and the bounds are not going to meet.
-fn bounded(budget: Budget, obstacles: &[ParallelRods]) -> Budget {
+fn bounded(budget: Budget, hopeful: bool) -> Budget {
     let is_open = budget.seconds.is_none() && budget.boxes.is_none();
-    if is_open && !obstacles.is_empty() { Budget { boxes: Some(HOPELESS_BOXES), ..budget } } else { budget }
+    if is_open && !hopeful { Budget { boxes: Some(HOPELESS_BOXES), ..budget } } else { budget }
 }
 
 /// One class, its aspects not yet numbered: label k + 1 stands for `class.aspects[k]`.
@@ -296,24 +300,25 @@ fn aspect(atlas: &Atlas<'_>, class: Class, components: &Components, group: &Grou
     let paving = &atlas.sheets[0];
     let pieces: Vec<&Piece> = group.pieces.iter().map(|&k| &components.pieces[k as usize]).collect();
     let in_poses = |i: &usize| components.boxes[*i].0 == 0;
-    let all: Vec<u32> = (0..components.boxes.len())
-        .filter(|&i| in_poses(&i) && components.component_of[i] == Some(group.component))
-        .map(|i| components.boxes[i].1)
+    let all: Vec<Leaf> = (0..components.boxes.len())
+        .filter(|&i| components.component_of[i] == Some(group.component))
+        .map(|i| components.boxes[i])
         .collect();
     let mine: BTreeSet<u32> = group.pieces.iter().copied().collect();
     let inner: Vec<u32> = (0..components.boxes.len())
         .filter(|&i| in_poses(&i) && components.piece_of[i].is_some_and(|piece| mine.contains(&piece)))
         .map(|i| components.boxes[i].1)
         .collect();
-    let largest = inner.iter().copied().reduce(|a, b| paving.larger(a, b)).unwrap_or(0);
-    let pose = paving.centre(largest);
+    // An aspect too small for the boxes of poses is seen in a chart.
+    let largest = inner.iter().copied().reduce(|a, b| paving.larger(a, b)).map(|node| (0, node));
+    let pose = centre(atlas.robot, &atlas.sheets, largest.unwrap_or(pieces[0].largest));
     let q = atlas.robot.inverse_in(&pose, class.mode).ok().flatten().unwrap_or_default();
     Aspect {
         id: 0,
         measure: pieces.iter().map(|p| p.measure).sum(),
         pieces: group.summits,
         sample: Sample { pose, q },
-        w_bounds: w_bounds(paving, &all),
+        w_bounds: w_bounds(atlas.robot, &atlas.sheets, &all),
         q_bounds: q_bounds(atlas.robot, paving, class.mode, &inner),
     }
 }
@@ -322,12 +327,16 @@ fn aspect(atlas: &Atlas<'_>, class: Class, components: &Components, group: &Grou
 fn certificate(atlas: &Atlas<'_>, counted: &[(Class, Counted)]) -> Certificate {
     let claims = counted.iter().map(|(_, c)| Claim { low: c.low(), high: c.high() }).collect();
     let index = |class: &Class| class.bit.trailing_zeros() as usize;
-    let joins = counted
-        .iter()
-        .flat_map(|(class, c)| c.joins.iter().map(|path| Join { class: index(class), path: path.clone() }));
-    let seams = counted.iter().flat_map(|(class, _)| {
-        let points = atlas.seam_points(class.bit);
-        points.into_iter().map(|(sheet, point)| Seam { class: index(class), sheet, point })
+    let joins = counted.iter().flat_map(|(class, c)| {
+        c.joins.iter().map(|join| Join { class: index(class), sheet: join.sheet, path: join.points.clone() })
+    });
+    let seams = counted.iter().flat_map(|(class, c)| {
+        let seam = |&(sheet, node): &Leaf| Seam {
+            class: index(class),
+            sheet,
+            point: atlas.sheets[sheet].centre(node),
+        };
+        c.components.seams.iter().map(seam)
     });
     Certificate::new(atlas.robot, &atlas.scale, &atlas.sheets, joins.collect(), seams.collect(), claims)
 }

@@ -3,11 +3,12 @@
 //! U → −∞ at every boundary of S_{s,σ}, so a climb never leaves its aspect; each step is a segment proved by
 //! intervals to lie in S_{s,σ} ([`crate::kinematics::path::along`]). Pieces that a climb meets are one aspect with the piece it began in.
 
+use super::atlas::Leaf;
 use super::components::{Components, UnionFind};
-use crate::kinematics::demand::{Demand, demands};
+use crate::kinematics::chart::Chart;
+use crate::kinematics::demand::{Demand, demands_of};
 use crate::kinematics::modal::Constraint;
 use crate::kinematics::path::Along;
-use crate::kinematics::placement::Placement;
 use crate::kinematics::{WorkingMode, for_platform};
 use crate::num::{Interval, Jet, Scalar};
 use crate::paving::{ClassSet, Control, Paving};
@@ -29,10 +30,10 @@ pub(super) struct Class {
 }
 
 /// Which pieces are proved to be one: sets of piece numbers, and the paths that prove it. Climbs start from the pieces that
-/// are `worth` it, except the largest such piece of each component, which waits for the others.
+/// are `worth` it, except the largest such piece of each component, which waits for the others. They climb in the chart of their largest box.
 pub(super) fn merge(
     robot: &Robot,
-    paving: &Paving,
+    sheets: &[Paving],
     class: Class,
     components: &Components,
     worth: &[bool],
@@ -55,7 +56,7 @@ pub(super) fn merge(
                 return Climb::default();
             }
             let goal = largest[&pieces[k].component] as u32;
-            for_platform!(robot.platform, climb(robot, paving, class, components, k as u32, goal))
+            for_platform!(robot.platform, climb(robot, sheets, class, components, k as u32, goal))
         })
         .collect();
     let mut sets = UnionFind::new(pieces.len());
@@ -71,8 +72,12 @@ pub(super) fn merge(
     (sets, joins)
 }
 
-/// A polyline of poses.
-pub(super) type Path = Vec<Vec<f64>>;
+/// A polyline in the coordinates of a sheet.
+#[derive(Default)]
+pub(super) struct Path {
+    pub sheet: usize,
+    pub points: Vec<Vec<f64>>,
+}
 
 /// A climb: the pieces met, and the path up to the last of them.
 #[derive(Default)]
@@ -84,23 +89,25 @@ struct Climb {
 /// The climb from piece `from`, which ends at a maximum of U, at piece `goal`, or where no step can be proved any more.
 fn climb<const D: usize, const N: usize>(
     robot: &Robot,
-    paving: &Paving,
+    sheets: &[Paving],
     class: Class,
     components: &Components,
     from: u32,
     goal: u32,
 ) -> Climb {
-    let mut climb = Climb::default();
-    let (0, largest) = components.pieces[from as usize].largest else { return climb };
+    let (sheet, largest) = components.pieces[from as usize].largest;
+    let paving = &sheets[sheet];
     let start = paving.centre(largest);
+    let mut climb = Climb { met: Vec::new(), path: Path { sheet, points: Vec::new() } };
     let mut path = vec![start.clone()];
-    ascend::<D, N>(robot, paving, class, &start, &mut |pose| {
-        path.push(pose.to_vec());
-        let here = paving.find(&|node| node.of_classes(class.bit), pose);
-        let piece = here.filter(|(_, surely)| *surely).and_then(|(node, _)| components.piece_at((0, node)));
+    ascend::<D, N>(robot, paving, class, &start, &mut |point| {
+        path.push(point.to_vec());
+        let here = paving.find(&|node| node.of_classes(class.bit), point);
+        let leaf = here.filter(|(_, surely)| *surely).map(|(node, _)| -> Leaf { (sheet, node) });
+        let piece = leaf.and_then(|leaf| components.piece_at(leaf));
         if let Some(piece) = piece.filter(|&piece| piece != from) {
             climb.met.push(piece);
-            climb.path.clone_from(&path);
+            climb.path.points.clone_from(&path);
         }
         piece == Some(goal)
     });
@@ -119,7 +126,7 @@ pub(super) fn ascend<const D: usize, const N: usize>(
     let mut x = SVector::<f64, N>::from_column_slice(start);
     let free: [bool; N] = std::array::from_fn(|k| paving.axes.contains(&k));
     for _ in 0..STEPS {
-        let Some((height, direction)) = uphill::<D, N>(robot, class, &x, &free) else { break };
+        let Some((height, direction)) = uphill::<D, N>(robot, &paving.chart, class, &x, &free) else { break };
         let Some(next) = step::<D, N>(robot, paving, class, &x, height, &direction) else { break };
         x = next;
         if reached(x.as_slice()) {
@@ -141,10 +148,11 @@ fn step<const D: usize, const N: usize>(
     let mut length = 1.0;
     for _ in 0..30 {
         let next = x + direction * length;
-        let higher = potential::<f64, D, N>(robot, class, next.as_slice()).is_some_and(|u| u > height);
+        let higher =
+            potential::<f64, D, N>(robot, &paving.chart, class, &next.into()).is_some_and(|u| u > height);
         if higher
             && paving.find(&|node| node.of_classes(class.bit), next.as_slice()).is_some()
-            && Along::is_inside(robot, &demand, [x.as_slice(), next.as_slice()], EFFORT)
+            && Along::is_inside_of(robot, &paving.chart, &demand, [x.as_slice(), next.as_slice()], EFFORT)
         {
             return Some(next);
         }
@@ -156,6 +164,7 @@ fn step<const D: usize, const N: usize>(
 /// U at x and a Newton direction, bent so that it leads uphill; `None` at a maximum or outside.
 fn uphill<const D: usize, const N: usize>(
     robot: &Robot,
+    chart: &Chart,
     class: Class,
     x: &SVector<f64, N>,
     free: &[bool; N],
@@ -165,7 +174,7 @@ fn uphill<const D: usize, const N: usize>(
         Jet::<Jet<f64, N>, N>::variable(inner, k)
     };
     let jets: [_; N] = std::array::from_fn(variable);
-    let u = potential::<Jet<Jet<f64, N>, N>, D, N>(robot, class, &jets)?;
+    let u = potential::<Jet<Jet<f64, N>, N>, D, N>(robot, chart, class, &jets)?;
     let mut gradient = SVector::<f64, N>::from_fn(|k, _| u.gradient[k].value);
     let mut curvature = SMatrix::<f64, N, N>::from_fn(|i, j| -u.gradient[i].gradient[j]);
     for k in (0..N).filter(|&k| !free[k]) {
@@ -190,15 +199,16 @@ fn uphill<const D: usize, const N: usize>(
     (gain.is_finite() && gain > 1e-8).then_some((u.value.value, direction))
 }
 
-/// U at a pose, or `None` outside S_{s,σ}.
+/// U at a point of a chart, or `None` outside S_{s,σ}.
 fn potential<T: Logarithm, const D: usize, const N: usize>(
     robot: &Robot,
+    chart: &Chart,
     class: Class,
-    x: &[T],
+    x: &[T; N],
 ) -> Option<T> {
-    let placement = Placement::<T, D>::at(robot.platform, x);
+    let (placement, legs) = chart.at::<T, D, N>(robot, x, |k| x[k].sin_cos());
     let mut sum = Some(T::zero());
-    demands::<T, D, N>(robot, &placement, &Demand::class(class.mode, class.sign), |constraint, value| {
+    demands_of(robot, &placement, &legs, &Demand::class(class.mode, class.sign), |constraint, value| {
         let weight = if matches!(constraint, Constraint::Reach(_)) { 0.5 } else { 1.0 };
         sum = sum.filter(|_| value.number() > 0.0).map(|s| s + value.ln().scale(Interval::point(weight)));
         sum.is_some()

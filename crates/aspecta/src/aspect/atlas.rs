@@ -3,10 +3,10 @@
 use super::scale::Scale;
 use super::summit::summitless;
 use crate::kinematics::WorkingMode;
-use crate::kinematics::chart::{Chart, Fold, folds};
+use crate::kinematics::chart::{Chart, charts};
 use crate::kinematics::for_platform;
 use crate::num::{Interval, LANES, Scalar};
-use crate::paving::{Budget, ClassSet, Control, Mark, Node, Paving, Progress, for_paving};
+use crate::paving::{Budget, ClassSet, Control, Paving, Progress, for_paving};
 use crate::robot::{Robot, Window};
 use rayon::prelude::*;
 
@@ -42,11 +42,12 @@ impl Limits<'_> {
     }
 }
 
-/// The pavings of all charts. Sheet 0 is in pose coordinates; sheet i + 1 is that of fold i and replaces the boxes of
+/// The pavings of all charts. Sheet 0 is in pose coordinates; sheet i + 1 is that of chart i and replaces the boxes of
 /// sheet 0 that it covers.
 pub(super) struct Atlas<'a> {
     pub robot: &'a Robot,
-    pub folds: Vec<Fold>,
+    /// Those of the sheets from 1 on.
+    pub charts: Vec<Chart>,
     pub sheets: Vec<Paving>,
     pub scale: Scale,
 }
@@ -59,14 +60,13 @@ impl<'a> Atlas<'a> {
         budget: &Budget,
         control: &Control<'_>,
     ) -> Self {
-        let folds = folds(robot, window);
+        let charts = charts(robot, window);
         let mut sheets = vec![Paving::new(robot, window, modes, budget, control)];
-        let charts = folds.iter().map(|fold| Chart::Fold(fold.clone()));
-        sheets.extend(charts.map(|chart| {
-            let window = chart.window(window);
-            Paving::blank(chart, window, modes)
-        }));
-        Self { scale: Scale::of(robot, window, modes), robot, folds, sheets }
+        if charts.iter().any(Chart::is_whole) {
+            sheets[0].nodes.iter_mut().for_each(|node| node.covered = true);
+        }
+        sheets.extend(charts.iter().map(|chart| Paving::blank(chart.clone(), chart.window(window), modes)));
+        Self { scale: Scale::of(robot, window, modes), robot, charts, sheets }
     }
 
     /// Classes of which nothing is settled in a box: it is neither inside nor outside, and might hide a whole aspect.
@@ -92,17 +92,23 @@ impl<'a> Atlas<'a> {
         }
     }
 
-    /// Points, in the coordinates of a fold's sheet, at which a box there that is inside a class meets one of sheet 0 that is.
-    pub(super) fn seam_points(&self, class: ClassSet) -> Vec<(usize, Vec<f64>)> {
-        let mut points = Vec::new();
-        let sight = |node: &Node| node.of_classes(class);
-        let inside = |(s, at): Leaf| sight(&self.sheets[s].nodes[at as usize]) == Mark::Inside;
-        seams(self.robot, &self.sheets, &sight, &mut |a, b, surely| {
-            if surely && inside(a) {
-                points.push((b.0, self.sheets[b.0].centre(b.1)));
-            }
-        });
-        points
+    /// Remembers that charts hold a box of sheet 0, and all that it was split into.
+    pub(super) fn cover(&mut self, (sheet, node): Leaf) {
+        let paving = &mut self.sheets[sheet];
+        let mut stack = vec![node];
+        while let Some(at) = stack.pop() {
+            paving.nodes[at as usize].covered = true;
+            stack.extend(paving.children(at));
+        }
+    }
+
+    /// Whether one of the charts surely holds a box of sheet 0 on which all legs close; it is cut up where that helps.
+    pub(super) fn is_within_a_chart(&self, leaf: Leaf) -> bool {
+        leaf.0 == 0
+            && for_platform!(
+                self.robot.platform,
+                within_a_chart(self.robot, &self.charts, &self.sheets[0], leaf.1)
+            )
     }
 
     /// The children of boxes in which one of some classes is undecided.
@@ -115,14 +121,14 @@ impl<'a> Atlas<'a> {
         boxes.iter().flat_map(children).filter(undecided).collect()
     }
 
-    /// Whether the box belongs to a fold's sheet, or its centre surely lies in no fold's chart: a set of configurations that holds it
+    /// Whether the box belongs to a sheet from 1 on, or its centre surely lies in no other chart: a set of configurations that holds it
     /// has a point that no other boxes than those of its component of G⁺ can cover.
     pub(super) fn is_anchor(&self, (sheet, node): Leaf) -> bool {
-        if sheet > 0 || self.folds.is_empty() {
+        if sheet > 0 || self.charts.is_empty() {
             return true;
         }
         let pose: Vec<Interval> = self.sheets[0].centre(node).into_iter().map(Interval::point).collect();
-        for_platform!(self.robot.platform, outside_folds(self.robot, &self.folds, &pose))
+        for_platform!(self.robot.platform, outside_charts(self.robot, &self.charts, &pose))
     }
 
     /// Boxes classified so far.
@@ -252,81 +258,56 @@ impl<'a> Atlas<'a> {
         for (s, sheet) in self.sheets.iter_mut().enumerate() {
             let here: Vec<u32> = leaves.iter().filter(|l| l.0 == s).map(|l| l.1).collect();
             let first = sheet.nodes.len() as u32;
-            let folds = if s == 0 { self.folds.as_slice() } else { &[] };
-            sheet.split(self.robot, folds, &here, &|| control.is_cancelled());
+            let charts = if s == 0 { self.charts.as_slice() } else { &[] };
+            sheet.split(self.robot, charts, &here, &|| control.is_cancelled());
             children.extend((first..sheet.nodes.len() as u32).map(|n| (s, n)));
         }
         children
     }
 }
 
-/// Whether a pose surely lies in none of the folds' charts.
-fn outside_folds<const D: usize, const N: usize>(robot: &Robot, folds: &[Fold], pose: &[Interval]) -> bool {
+/// How often a box is halved to see whether it lies in a chart.
+const HALVINGS: u32 = 12;
+
+fn within_a_chart<const D: usize, const N: usize>(
+    robot: &Robot,
+    charts: &[Chart],
+    paving: &Paving,
+    node: u32,
+) -> bool {
+    let (lo, hi) = paving.bounds(node);
+    let mut cell: [Interval; N] = std::array::from_fn(|k| Interval::point(paving.window.ranges[k].0));
+    for (a, &k) in paving.axes.iter().enumerate() {
+        cell[k] = Interval::new(lo[a], hi[a]);
+    }
+    charts.iter().any(|chart| {
+        let mut open = vec![(cell, HALVINGS)];
+        while let Some((cell, halvings)) = open.pop() {
+            let (_, legs) = Chart::Pose.at::<Interval, D, N>(robot, &cell, |k| cell[k].sin_cos());
+            let margins = chart.cover(&legs);
+            if margins.iter().all(|margin| margin.is_positive()) {
+                continue;
+            }
+            if halvings == 0 || margins.iter().any(|margin| margin.is_negative()) {
+                return false;
+            }
+            let widest = (0..N).max_by(|&a, &b| cell[a].width().total_cmp(&cell[b].width())).unwrap_or(0);
+            let middle = cell[widest].mid();
+            let (mut low, mut high) = (cell, cell);
+            (low[widest].hi, high[widest].lo) = (middle, middle);
+            open.extend([(low, halvings - 1), (high, halvings - 1)]);
+        }
+        true
+    })
+}
+
+/// Whether a pose surely lies in none of the charts.
+fn outside_charts<const D: usize, const N: usize>(
+    robot: &Robot,
+    charts: &[Chart],
+    pose: &[Interval],
+) -> bool {
     let x: [Interval; N] = std::array::from_fn(|k| pose[k]);
     let (_, legs) = Chart::Pose.at::<Interval, D, N>(robot, &x, |k| x[k].sin_cos());
-    folds.iter().all(|fold| fold.cover(&legs[fold.leg]).iter().any(|margin| margin.is_negative()))
-}
-
-/// Visits the pairs of boxes of sheet 0 and of a fold's sheet that meet: `join(a, b, surely)`.
-///
-/// The boxes of a fold's sheet and those boxes of sheet 0 that it does not cover, cut to the poses the chart does not hold, cover
-/// all configurations. The two kinds meet only in the chart's outer faces, so every box at such a face is joined with all
-/// that its image may meet. `surely`: the centre of a box of the fold has a pose that lies in the box of sheet 0.
-pub(super) fn seams(
-    robot: &Robot,
-    sheets: &[Paving],
-    sight: &impl Fn(&Node) -> Mark,
-    join: &mut impl FnMut(Leaf, Leaf, bool),
-) {
-    for (s, sheet) in sheets.iter().enumerate().skip(1) {
-        let mut boxes = Vec::new();
-        sheet.boxes_of(sight, &mut |at| boxes.push(at));
-        for at in boxes {
-            for face in outer_faces(robot, sheet, at) {
-                sheets[0].meeting(sight, &image(robot, sheet, &face), &mut |other| {
-                    join((0, other), (s, at), false)
-                });
-            }
-            if sight(&sheet.nodes[at as usize]) == Mark::Inside {
-                let centre = sheet.centre(at).into_iter().map(Interval::point).collect::<Vec<_>>();
-                let pose = image(robot, sheet, &centre);
-                sheets[0].meeting(sight, &pose, &mut |other| {
-                    if sheets[0].holds(other, &pose) {
-                        join((0, other), (s, at), true);
-                    }
-                });
-            }
-        }
-    }
-}
-
-/// The outer faces of a fold's chart that a box lies at: its coordinates, one of them at its end.
-fn outer_faces(robot: &Robot, sheet: &Paving, at: u32) -> Vec<Vec<Interval>> {
-    let node = &sheet.nodes[at as usize];
-    let last = (1u32 << node.depth) - 1;
-    let (lo, hi) = sheet.bounds(at);
-    let mut coordinates: Vec<Interval> = sheet.window.ranges.iter().map(|r| Interval::point(r.0)).collect();
-    for (a, &k) in sheet.axes.iter().enumerate() {
-        coordinates[k] = Interval::new(lo[a], hi[a]);
-    }
-    let mut faces = Vec::new();
-    for (a, &k) in sheet.axes.iter().enumerate().filter(|(_, k)| (1..robot.platform.space()).contains(*k)) {
-        for (is_outer, end) in [(node.corner[a] == 0, lo[a]), (node.corner[a] == last, hi[a])] {
-            if is_outer {
-                let mut face = coordinates.clone();
-                face[k] = Interval::point(end);
-                faces.push(face);
-            }
-        }
-    }
-    faces
-}
-
-/// Poses that hold the configurations with the given coordinates.
-fn image(robot: &Robot, sheet: &Paving, y: &[Interval]) -> Vec<Interval> {
-    for_platform!(robot.platform, image_in(robot, sheet, y))
-}
-
-fn image_in<const D: usize, const N: usize>(robot: &Robot, sheet: &Paving, y: &[Interval]) -> Vec<Interval> {
-    sheet.chart.pose::<D, N>(robot, &std::array::from_fn(|k| y[k])).to_vec()
+    charts.iter().all(|chart| chart.cover(&legs).iter().any(|margin| margin.is_negative()))
 }

@@ -1,6 +1,7 @@
 //! Connected components of the boxes of a class: the two graphs of the sandwich.
 
-use super::atlas::{Leaf, seams};
+use super::atlas::Leaf;
+use super::seams;
 use crate::paving::{Mark, Node, Paving};
 use crate::robot::Robot;
 
@@ -49,6 +50,9 @@ pub(super) struct Components {
     pub component_of: Vec<Option<u32>>,
     /// The pieces, in the order of their first box.
     pub pieces: Vec<Piece>,
+    /// Boxes of sheets from 1 on whose centres, as poses, lie in a box of sheet 0, so that what touches the one and what touches the other are one
+    /// piece; no more than that takes.
+    pub seams: Vec<Leaf>,
 }
 
 impl Components {
@@ -74,7 +78,7 @@ impl Components {
         // One sheet alone has nothing to cover it. Covered boxes count only where they are inside.
         let is_covered = |node: &Node| node.covered && sheets.len() > 1;
         let kept = |node: &Node| match sight(node) {
-            Mark::Open if is_covered(node) => Mark::Outside,
+            Mark::Open if is_covered(node) && node.first_child == 0 => Mark::Outside,
             mark => mark,
         };
         let mut boxes: Vec<Leaf> = Vec::new();
@@ -88,27 +92,37 @@ impl Components {
         let is_inside = |leaf: Leaf| sight(node(leaf)) == Mark::Inside;
         let mut all = UnionFind::new(boxes.len());
         let mut inner = UnionFind::new(boxes.len());
-        let mut join = |a: Leaf, b: Leaf, surely: bool| {
+        let mut may_touch = |a: Leaf, b: Leaf| {
             let (i, j) = (index.of(a), index.of(b));
             if !is_covered(node(a)) && !is_covered(node(b)) {
                 all.union(i, j);
                 visit(i, j);
             }
-            if surely && is_inside(a) && is_inside(b) {
-                inner.union(i, j);
-            }
         };
         for (s, paving) in sheets.iter().enumerate() {
-            paving.touching(&kept, &mut |a, b| join((s, a), (s, b), true));
+            paving.touching(&kept, &mut |a, b| {
+                may_touch((s, a), (s, b));
+                if is_inside((s, a)) && is_inside((s, b)) {
+                    inner.union(index.of((s, a)), index.of((s, b)));
+                }
+            });
         }
         for (a, b) in folds(robot, &sheets[0], &kept) {
-            join((0, a), (0, b), false);
+            may_touch((0, a), (0, b));
         }
-        seams(robot, sheets, &kept, &mut join);
+        seams::outer(robot, sheets, &kept, &mut may_touch);
+        let mut met = Vec::new();
+        seams::inner(robot, sheets, &kept, &mut |a, b, surely| {
+            let (i, j) = (index.of(a), index.of(b));
+            if inner.root(i) != inner.root(j) && surely() {
+                inner.union(i, j);
+                met.push(b);
+            }
+        });
         let mut root = |i: u32| (!is_covered(node(boxes[i as usize]))).then(|| all.root(i));
         let component_of = (0..boxes.len() as u32).map(&mut root).collect();
         let mut components =
-            Self { piece_of: vec![None; boxes.len()], component_of, pieces: Vec::new(), boxes };
+            Self { piece_of: vec![None; boxes.len()], component_of, pieces: Vec::new(), seams: met, boxes };
         components.gather(sheets, &is_inside, &mut inner);
         components
     }

@@ -17,6 +17,8 @@ pub(super) struct Counted {
     pub joins: Vec<Path>,
     /// Boxes found to have no summit, for the atlas to remember.
     pub summitless: Vec<Leaf>,
+    /// Boxes of poses found to lie in a chart, for the atlas to remember: then the count is due once more.
+    pub covered: Vec<Leaf>,
     /// What lies between pieces that were not joined.
     pub between: Between,
 }
@@ -24,7 +26,7 @@ pub(super) struct Counted {
 /// Undecided boxes between unjoined pieces of G⁻.
 #[derive(Default)]
 pub(super) struct Between {
-    /// Those half-way, where the floods run into each other: finer ones would part the pieces.
+    /// Those half-way, where the floods run into each other: finer ones would part the pieces. And those that keep a component from being settled.
     pub front: Vec<Leaf>,
     /// Those on the shortest ways from one to the other: finer ones would join them.
     pub ways: Vec<Leaf>,
@@ -67,13 +69,6 @@ const SEARCHED: usize = 1 << 14;
 pub(super) fn count(atlas: &Atlas<'_>, class: Class, control: &Control<'_>) -> Counted {
     let sight = |node: &Node| node.of_classes(class.bit);
     let components = Components::new(atlas.robot, &atlas.sheets, &sight);
-    let mut summitless = Vec::new();
-    let fertile = fertile(atlas, class.bit, &components, &mut summitless);
-    let (mut joined, joins) = merge(atlas.robot, &atlas.sheets[0], class, &components, &fertile, control);
-    let mut groups = BTreeMap::<u32, Vec<u32>>::new();
-    for (k, piece) in components.pieces.iter().enumerate() {
-        groups.entry(piece.component).or_default().push(k as u32);
-    }
     let mut anchored = BTreeSet::new();
     for (i, &leaf) in components.boxes.iter().enumerate() {
         if let (Some(component), Some(_)) = (components.component_of[i], components.piece_of[i])
@@ -83,28 +78,39 @@ pub(super) fn count(atlas: &Atlas<'_>, class: Class, control: &Control<'_>) -> C
             anchored.insert(component);
         }
     }
+    let mut summitless = Vec::new();
+    let fertile = fertile(atlas, class.bit, &components, &anchored, &mut summitless);
+    let (mut joined, joins) = merge(atlas.robot, &atlas.sheets, class, &components, &fertile, control);
+    let mut groups = BTreeMap::<u32, Vec<u32>>::new();
+    for (k, piece) in components.pieces.iter().enumerate() {
+        groups.entry(piece.component).or_default().push(k as u32);
+    }
     let group = |(component, pieces): (u32, Vec<u32>)| {
         let anchored = anchored.contains(&component);
         let tops = pieces.iter().filter(|&&k| fertile[k as usize]).map(|&k| joined.root(k));
-        let summits = tops.collect::<BTreeSet<u32>>().len().max(1);
+        // An aspect has a summit.
+        let summits = tops.collect::<BTreeSet<u32>>().len().max(usize::from(anchored));
         Group { component, pieces, anchored, summits }
     };
     let found: Vec<Group> = groups.into_iter().map(group).collect();
     let closed = components.boxes.iter().all(|&leaf| atlas.open(leaf) & class.bit == 0);
-    let between = if found.iter().any(|group| group.summits > 1) {
+    let mut between = if found.iter().any(|group| group.summits > 1) {
         let label = |piece: u32| fertile[piece as usize].then_some(piece);
         between(atlas, &sight, &found, &label, &mut joined)
     } else {
         Between::default()
     };
-    Counted { components, found, closed, joins, summitless, between }
+    let (covered, unsettled) = loose(atlas, &components, &found);
+    between.front.extend(unsettled);
+    Counted { components, found, closed, joins, summitless, covered, between }
 }
 
-/// Which pieces may hold a summit of an aspect. The largest piece of a component is not searched.
+/// Which pieces may hold a summit of an aspect. The largest piece of an anchored component is not searched: there is one somewhere.
 fn fertile(
     atlas: &Atlas<'_>,
     bit: ClassSet,
     components: &Components,
+    anchored: &BTreeSet<u32>,
     summitless: &mut Vec<Leaf>,
 ) -> Vec<bool> {
     let pieces = &components.pieces;
@@ -131,7 +137,9 @@ fn fertile(
             if boxes[k].is_empty() {
                 return false;
             }
-            if largest[&pieces[k].component] == k || boxes[k].len() > SEARCHED {
+            let component = pieces[k].component;
+            let is_sure = anchored.contains(&component) && largest[&component] == k;
+            if is_sure || boxes[k].len() > SEARCHED {
                 return true;
             }
             let mut all = true;
@@ -149,6 +157,22 @@ fn fertile(
             !all
         })
         .collect()
+}
+
+/// Of the components that may hold an aspect or not: the boxes of poses that lie in a chart after all, and the largest undecided boxes. Finer
+/// ones would anchor them, or show that they have no summit.
+fn loose(atlas: &Atlas<'_>, components: &Components, found: &[Group]) -> (Vec<Leaf>, Vec<Leaf>) {
+    let loose: BTreeSet<u32> =
+        found.iter().filter(|g| !g.anchored && g.summits > 0).map(|g| g.component).collect();
+    let is_loose = |&i: &usize| components.component_of[i].is_some_and(|c| loose.contains(&c));
+    let (inside, undecided): (Vec<usize>, Vec<usize>) =
+        (0..components.boxes.len()).filter(is_loose).partition(|&i| components.piece_of[i].is_some());
+    let covered =
+        inside.into_iter().map(|i| components.boxes[i]).filter(|&leaf| atlas.is_within_a_chart(leaf));
+    let depth = |i: &usize| atlas.depth_of(components.boxes[*i]);
+    let least = undecided.iter().map(depth).min();
+    let unsettled = undecided.iter().filter(|i| Some(depth(i)) == least).map(|&i| components.boxes[i]);
+    (covered.collect(), unsettled.collect())
 }
 
 /// The undecided boxes between unjoined pieces. G⁺ is flooded from all of them at once.

@@ -20,6 +20,7 @@ mod project;
 mod result;
 mod saddle;
 mod scale;
+mod seams;
 mod search;
 mod summit;
 

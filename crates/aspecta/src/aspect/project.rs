@@ -1,11 +1,13 @@
 //! Projections of an aspect: bounds of its W-aspect and of its Q-aspect.
 
+use super::atlas::Leaf;
+use super::seams::poses;
 use crate::kinematics::leg::Drive;
 use crate::kinematics::modal::closures;
 use crate::kinematics::placement::Placement;
 use crate::kinematics::{WorkingMode, for_platform};
 use crate::num::Interval;
-use crate::paving::{BoxOf, Paving};
+use crate::paving::Paving;
 use crate::robot::Robot;
 
 /// The smallest range that holds all the intervals; on a circle of 2π, the complement of the widest gap
@@ -32,17 +34,22 @@ pub(super) fn hull(mut ranges: Vec<Interval>, circular: bool) -> (f64, f64) {
     if widest > 0.0 { hull } else { (-PI, PI) }
 }
 
-/// Bounds, per pose coordinate, of the given boxes.
-pub(super) fn w_bounds(paving: &Paving, boxes: &[u32]) -> Vec<(f64, f64)> {
-    let corners: Vec<BoxOf> = boxes.iter().map(|&node| paving.bounds(node)).collect();
-    let bound = |k: usize| match paving.axes.iter().position(|&axis| axis == k) {
-        None => paving.window.ranges[k],
-        Some(a) => {
-            let ranges = corners.iter().map(|(lo, hi)| Interval::new(lo[a], hi[a]));
-            hull(ranges.collect(), paving.window.glued[k])
-        }
+/// Bounds, per pose coordinate, of the poses of the given boxes of all sheets.
+pub(super) fn w_bounds(robot: &Robot, sheets: &[Paving], boxes: &[Leaf]) -> Vec<(f64, f64)> {
+    let window = &sheets[0].window;
+    let poses: Vec<Vec<Interval>> = boxes.iter().map(|&leaf| poses(robot, sheets, leaf)).collect();
+    let bound = |k: usize| {
+        let (lo, hi) = window.ranges[k];
+        let within = |pose: &Vec<Interval>| match pose[k] {
+            // Near a pole of the pitch roll and yaw may be anything.
+            x if x.width() >= hi - lo => Interval::new(lo, hi),
+            x if window.glued[k] => x,
+            x => Interval::new(x.lo.max(lo), x.hi.min(hi)),
+        };
+        let all = poses.iter().map(within);
+        if lo < hi { hull(all.collect(), window.glued[k]) } else { (lo, hi) }
     };
-    (0..paving.window.ranges.len()).map(bound).collect()
+    (0..window.ranges.len()).map(bound).collect()
 }
 
 /// A box by its grid coordinates and depth.

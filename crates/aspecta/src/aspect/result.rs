@@ -40,6 +40,9 @@ pub struct Analysis {
     pub doubts: Vec<Doubt>,
     /// Surfaces on which det A vanishes to higher order: a reason for doubts that no refinement removes.
     pub parallel_rods: Vec<ParallelRods>,
+    /// Legs (from 1) of a platform that turns about a point whose joint can come onto the motor's axis, where the motor is free: round these orientations the
+    /// bounds may stay apart.
+    pub uncharted_folds: Vec<usize>,
     /// Definition 5 applied to this robot: what figures 6 and 7 show. Two entries, det A > 0 and < 0.
     pub parallel_aspects: Vec<EarlierAspects>,
     /// Definition 6 applied to this robot: domains of constant sign of the B_jj, one entry a mode.
@@ -182,7 +185,7 @@ pub struct Doubt {
     pub kind: DoubtKind,
     /// In how many boxes.
     pub boxes: usize,
-    /// Their measure, in pose coordinates.
+    /// The measure of those that are boxes of poses; 0 where the boxes are in a leg's own coordinates.
     pub measure: f64,
     /// The largest of them: a range per coordinate, of the pose or, if `fold` is set, of that leg's own coordinates.
     pub place: Vec<(f64, f64)>,

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 pub struct Scale {
     /// Of det A.
     pub det: f64,
-    /// Of H_j, per leg.
+    /// Of H_j, per leg: h_j is divided by its root.
     pub reach: Vec<f64>,
     /// Of the limits, per leg.
     pub limits: Vec<Vec<f64>>,

@@ -64,7 +64,7 @@ impl<'a> Search<'a> {
         let classes: Vec<Class> = modes.iter().enumerate().flat_map(signs).collect();
         let atlas = &self.atlas;
         self.counted = classes.into_par_iter().map(|class| (class, count(atlas, class, control))).collect();
-        self.remember();
+        self.remember(control);
     }
 
     /// Counts those that are `due` once more. What was exact stays so.
@@ -79,13 +79,21 @@ impl<'a> Search<'a> {
             }
         };
         self.counted.par_iter_mut().for_each(again);
-        self.remember();
+        self.remember(control);
     }
 
-    /// Has the atlas remember which boxes the counts found to have no summit.
-    fn remember(&mut self) {
-        for (class, counted) in &self.counted {
+    /// Has the atlas remember which boxes the counts found to have no summit, or to lie in a chart: then counts are due again.
+    fn remember(&mut self, control: &Control<'_>) {
+        let mut covered = false;
+        for (class, counted) in &mut self.counted {
             counted.summitless.iter().for_each(|&leaf| self.atlas.remember(leaf, class.bit));
+            for leaf in std::mem::take(&mut counted.covered) {
+                self.atlas.cover(leaf);
+                covered = true;
+            }
+        }
+        if covered {
+            self.recount(control, |counted| !counted.is_exact());
         }
     }
 

@@ -1,7 +1,7 @@
 //! No hiding: the proof that no aspect has its highest point in a box.
 //!
 //! # Theorem
-//! Let g_1, …, g_r be the functions whose common positivity region is S_{s,σ} (σ det A, the H_j, the limits, the distances to
+//! Let g_1, …, g_r be the functions whose common positivity region is S_{s,σ} (σ det A, the h_j = √H_j, the limits, the distances to
 //! the faces at which the user's window cuts the workspace), each divided by a positive constant, and
 //!
 //! > P = min_k g_k.
@@ -57,7 +57,8 @@ pub(super) fn summitless<const D: usize, const N: usize, const M: usize>(
     let singular = view.singular(&left);
     if singular.contains(&true) {
         let mut held = left;
-        for heights in parts(&view.heights, &singular) {
+        let depth = boxes.iter().map(|b| paving.depth_of(b.0)).max().unwrap_or(0);
+        for heights in parts(&view.heights, &singular, depth) {
             let found = view.look(robot, scale, &heights, &held);
             (0..LANES).for_each(|l| held[l] &= found[l]);
             if held == [0; LANES] {
@@ -80,11 +81,17 @@ pub(super) fn summitless<const D: usize, const N: usize, const M: usize>(
 /// From this depth on the second-order test is tried: double points of det A = 0 are rare, and it costs more.
 const DEEP: u32 = 9;
 
-/// The ranges of h, those of the marked legs cut into parts, in all combinations.
-fn parts<const N: usize>(heights: &[Pack; N], cut: &[bool; N]) -> impl Iterator<Item = [Pack; N]> {
+/// The ranges of h, those of the marked legs cut into parts, in all combinations. The range shrinks like the root of the box's width, so that
+/// it takes more parts in smaller boxes to match what the width leaves uncertain.
+fn parts<const N: usize>(
+    heights: &[Pack; N],
+    cut: &[bool; N],
+    depth: u32,
+) -> impl Iterator<Item = [Pack; N]> {
     let heights = *heights;
     let cuts: ArrayVec<usize, N> = (0..N).filter(|&j| cut[j]).collect();
-    let each = [1, 4, 3, 2][cuts.len().min(3)];
+    let (few, most) = [(1, 1), (4, 64), (3, 12), (2, 4)][cuts.len().min(3)];
+    let each = (few << (depth.saturating_sub(DEEP) / 2).min(8)).min(most);
     (0..usize::pow(each, cuts.len() as u32)).map(move |mut index| {
         let mut part = heights;
         for &j in &cuts {

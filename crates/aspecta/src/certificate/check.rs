@@ -1,9 +1,9 @@
 //! Whether the parts of a certificate fit together, so that whoever reads on need not look out for nonsense.
 
 use super::{Certificate, TreeError};
-use crate::kinematics::chart::{Chart, Fold};
+use crate::kinematics::chart::{Chain, Chart, Fold};
 use crate::num::{Interval, Scalar, dot};
-use crate::robot::{Actuator, Leg, Limit, Platform, Robot, RobotError};
+use crate::robot::{Actuator, Leg, Limit, Platform, Robot, RobotError, Window};
 
 /// Parts that do not fit together.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -84,6 +84,9 @@ impl Certificate {
         };
         for join in &self.joins {
             class(join.class)?;
+            if join.sheet >= self.sheets.len() {
+                return Err(Unsound::Index { what: "sheet of a join", index: join.sheet });
+            }
             holds(join.path.len() >= 2, "a path has fewer than two poses")?;
             join.path.iter().try_for_each(point)?;
         }
@@ -154,6 +157,7 @@ impl Certificate {
             match &sheet.chart {
                 Chart::Pose => holds(k == 0, "there is more than one sheet in pose coordinates")?,
                 Chart::Fold(fold) => check_fold(&self.robot, fold)?,
+                Chart::Chain(chain) => check_chain(&self.robot, &self.window, chain)?,
             }
             sheet.tree.check(axes, classes).map_err(|error| Unsound::Tree { sheet: k, error })?;
         }
@@ -175,6 +179,19 @@ fn check_fold(robot: &Robot, fold: &Fold) -> Result<(), Unsound> {
     };
     holds(axial, "the axial range of a fold is not one, or one too many in the plane")?;
     holds(sane(&fold.crank) && sane(&fold.rod), "a length of a fold is not finite")
+}
+
+fn check_chain(robot: &Robot, window: &Window, chain: &Chain) -> Result<(), Unsound> {
+    let leg = robot.legs.get(chain.leg).ok_or(Unsound::Index { what: "leg of a chain", index: chain.leg })?;
+    holds(
+        robot.platform == Platform::TurningBody && matches!(leg.actuator, Actuator::Spherical { .. }),
+        "a chain is that of a platform that does not turn about a point, or of a leg that is not spherical",
+    )?;
+    let whole = window.ranges.len() == 3 && window.cut.iter().all(|cut| *cut == (false, false));
+    holds(
+        whole && window.held().next().is_none(),
+        "a chain holds all orientations, but the window cuts or holds some",
+    )
 }
 
 fn sane(x: &Interval) -> bool {

@@ -18,7 +18,7 @@ use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 /// Version of the file format; raised when a field changes its meaning or goes away.
-pub const FORMAT_VERSION: u32 = 1;
+pub const FORMAT_VERSION: u32 = 2;
 
 /// The largest file that is read, in bytes.
 const LARGEST: u64 = 1 << 31;
@@ -39,11 +39,11 @@ pub struct Certificate {
     pub scale: Scale,
     /// The bounds claimed, one entry per class.
     pub claims: Vec<Claim>,
-    /// Sheet 0 is in pose coordinates; the others are folds, which replace the boxes of sheet 0 that are covered.
+    /// Sheet 0 is in pose coordinates; the others are charts that replace the boxes of sheet 0 that are covered.
     pub sheets: Vec<Sheet>,
-    /// Paths that join inside boxes of sheet 0.
+    /// Paths that join inside boxes of a sheet.
     pub joins: Vec<Join>,
-    /// Points that inside boxes of a fold share with inside boxes of sheet 0.
+    /// Points that inside boxes of other sheets share with inside boxes of sheet 0.
     pub seams: Vec<Seam>,
 }
 
@@ -67,23 +67,25 @@ pub struct Sheet {
     pub tree: Tree,
 }
 
-/// A polyline in S_{s,σ} from an inside box of sheet 0 to another.
+/// A polyline in S_{s,σ} from an inside box of a sheet to another.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Join {
     /// The class.
     pub class: usize,
-    /// Poses, to be joined by straight segments in pose coordinates.
+    /// The sheet.
+    pub sheet: usize,
+    /// Points, to be joined by straight segments in the coordinates of that sheet.
     pub path: Vec<Vec<f64>>,
 }
 
-/// A configuration that lies in an inside box of a fold and, as a pose, in one of sheet 0.
+/// A configuration that lies in an inside box of a sheet from 1 on and, as a pose, in one of sheet 0.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Seam {
     /// The class.
     pub class: usize,
-    /// The sheet of the fold.
+    /// The sheet.
     pub sheet: usize,
     /// The point, in the coordinates of that sheet.
     pub point: Vec<f64>,

@@ -4,10 +4,17 @@
 //! lie on the crank's axis: in the plane if L = M, at d = C − A = 0; in space if L ≤ M, at
 //! d = (0, 0, ±√(M² − L²)). There one pose has a whole circle of q_j, aspects that are apart in W × Q touch in W, and det A
 //! depends on the direction from which the point is approached. The leg's own coordinates open this up.
+//!
+//! Neither is it enough to turn about a point: roll and yaw are one at the poles of the pitch. There the joint angles of one leg,
+//! from the base to the platform, are coordinates of all configurations.
+
+mod chain;
+
+pub use chain::Chain;
 
 use super::leg::{Closure, sum_of_squares};
 use super::modal::{LegClosure, closures};
-use super::placement::{Placement, out_of_frame};
+use super::placement::{Placement, out_of_frame, roll_pitch_yaw};
 use crate::num::{Interval, Scalar, each};
 use crate::robot::{Actuator, Platform, Robot, Window};
 use arrayvec::ArrayVec;
@@ -21,6 +28,8 @@ pub enum Chart {
     Pose,
     /// One leg's own coordinates instead of the platform's translations.
     Fold(Fold),
+    /// The joint angles of one spherical leg.
+    Chain(Chain),
 }
 
 /// The configurations in which one revolute leg is nearly folded.
@@ -62,6 +71,15 @@ pub struct Folded<T> {
 }
 
 impl Chart {
+    /// The leg whose own coordinates these are, from 0; its q is the first of them.
+    pub fn leg(&self) -> Option<usize> {
+        match self {
+            Self::Pose => None,
+            Self::Fold(fold) => Some(fold.leg),
+            Self::Chain(chain) => Some(chain.leg),
+        }
+    }
+
     /// The placement of the platform and the state of the legs at the point `y` of the chart; `turn(k)` gives (sin, cos) of the
     /// angle `y[k]`.
     pub fn at<T: Scalar, const D: usize, const N: usize>(
@@ -77,22 +95,57 @@ impl Chart {
                 (placement, legs)
             }
             Self::Fold(fold) => fold.at(robot, y, turn),
+            Self::Chain(chain) => chain.at(robot, turn),
+        }
+    }
+
+    /// Whether it holds all configurations.
+    pub fn is_whole(&self) -> bool {
+        matches!(self, Self::Pose | Self::Chain(_))
+    }
+
+    /// Functions of the legs at a pose: where all are positive and the legs close, the chart covers the pose.
+    pub fn cover<T: Scalar, const D: usize, const N: usize>(
+        &self,
+        legs: &[LegClosure<T, D>; N],
+    ) -> ArrayVec<T, 4> {
+        match self {
+            Self::Fold(fold) => fold.cover(&legs[fold.leg]),
+            Self::Pose | Self::Chain(_) => ArrayVec::new(),
         }
     }
 
     /// Poses that hold all configurations whose coordinates are in `y`.
     pub fn pose<const D: usize, const N: usize>(&self, robot: &Robot, y: &[Interval; N]) -> [Interval; N] {
-        if *self == Self::Pose {
-            return *y;
-        }
         let (placement, _) = self.at::<Interval, D, N>(robot, y, |k| y[k].sin_cos());
-        // The chart's coordinates stand for the translations.
-        std::array::from_fn(|k| if k < D { placement.origin()[k] } else { y[k] })
+        match self {
+            Self::Pose => *y,
+            // The chart's coordinates stand for the translations.
+            Self::Fold(_) => std::array::from_fn(|k| if k < D { placement.origin()[k] } else { y[k] }),
+            Self::Chain(_) => chain::pose(&placement),
+        }
+    }
+
+    /// The pose of a point of the chart, numerically.
+    pub fn pose_at<const D: usize, const N: usize>(&self, robot: &Robot, y: &[f64; N]) -> [f64; N] {
+        let (placement, _) = self.at::<f64, D, N>(robot, y, |k| y[k].sin_cos());
+        match (self, placement.rotation()) {
+            (Self::Chain(_), Some(r)) => {
+                let angles = roll_pitch_yaw(r);
+                each!(|k| angles[k])
+            }
+            (Self::Fold(_), _) => each!(|k| if k < D { placement.origin()[k] } else { y[k] }),
+            _ => *y,
+        }
     }
 
     /// The window of the chart, given that of the poses.
     pub fn window(&self, poses: &Window) -> Window {
-        let Self::Fold(fold) = self else { return poses.clone() };
+        let fold = match self {
+            Self::Pose => return poses.clone(),
+            Self::Fold(fold) => fold,
+            Self::Chain(_) => return Chain::window(),
+        };
         let mut window = poses.clone();
         let p = fold.half_width;
         let lengths = [Some((-Interval::PI.hi, Interval::PI.hi)), Some((-p, p)), fold.axial];
@@ -167,6 +220,28 @@ impl Fold {
 
 /// Least half-width of a fold's chart that is worth having, relative to the crank.
 const LEAST: f64 = 1e-3;
+
+/// The legs (from 0) that can fold where no chart opens it up: those other than that of a [`Chain`] whose links are equal, or complete each other to
+/// half a turn, so that the platform's joint can come onto the motor's axis. Boxes there are never decided.
+pub fn uncharted_folds(robot: &Robot, window: &Window) -> Vec<usize> {
+    let Some(chain) = Chain::of(robot, window) else { return Vec::new() };
+    let folds = |j: &usize| match robot.legs[*j].actuator {
+        Actuator::Spherical { proximal: (cos, _), distal_cos } => {
+            (cos.square() - distal_cos.square()).contains(0.0)
+        }
+        _ => false,
+    };
+    (0..robot.dof()).filter(|&j| j != chain.leg).filter(folds).collect()
+}
+
+/// The charts that replace the pose where it is not enough: for a platform that turns about a point, if the window is all of its
+/// orientations, one leg's joint angles everywhere; else the robot's folds.
+pub fn charts(robot: &Robot, window: &Window) -> Vec<Chart> {
+    match Chain::of(robot, window) {
+        Some(chain) => vec![Chart::Chain(chain)],
+        None => folds(robot, window).into_iter().map(Chart::Fold).collect(),
+    }
+}
 
 /// The folds of a robot that need a chart of their own, each with a chart small enough to be disjoint from the others; legs
 /// whose folds cannot be told apart get none.

@@ -57,11 +57,26 @@ pub fn demands<T: Scalar, const D: usize, const N: usize>(
     robot: &Robot,
     placement: &Placement<T, D>,
     demand: &Demand,
+    visit: impl FnMut(Constraint, T) -> bool,
+) {
+    demands_of(robot, placement, &closures::<T, D, N>(robot, placement), demand, visit);
+}
+
+/// [`demands`] with the legs as a chart has them; where it is a leg's own, s B_jj stands for H_j.
+pub fn demands_of<T: Scalar, const D: usize, const N: usize>(
+    robot: &Robot,
+    placement: &Placement<T, D>,
+    legs: &[LegClosure<T, D>; N],
+    demand: &Demand,
     mut visit: impl FnMut(Constraint, T) -> bool,
 ) {
-    let legs = closures::<T, D, N>(robot, placement);
     for (j, at) in legs.iter().enumerate() {
-        if robot.legs[j].actuator.postures() == 2 {
+        if let Some(fold) = &at.fold {
+            let b = if demand.mode.sign(j) > 0 { fold.b } else { -fold.b };
+            if !visit(Constraint::Reach(j), b) {
+                return;
+            }
+        } else if robot.legs[j].actuator.postures() == 2 {
             let reach = at.closure.reach;
             let least = if demand.crossing == Some(j) { 0.0 } else { demand.margins.serial };
             let reach = if least > 0.0 { reach - T::constant(least_reach(robot, j, least)) } else { reach };
@@ -70,13 +85,13 @@ pub fn demands<T: Scalar, const D: usize, const N: usize>(
             }
         }
     }
-    let heights: [T; N] = each!(|j| legs[j].closure.reach.sqrt());
-    let rows = ModalRows::<T, N>::new(robot, &legs, &heights);
+    let heights: [[T; 2]; N] = std::array::from_fn(|j| legs[j].heights());
+    let rows = ModalRows::<T, N>::new(robot, legs, &each!(|j| heights[j][0]));
     let other = demand.crossing.map(|j| demand.mode.with_other_posture(j));
     for mode in std::iter::once(demand.mode).chain(other) {
         for (j, at) in legs.iter().enumerate() {
             let leg = &robot.legs[j];
-            let sh = if mode.sign(j) > 0 { heights[j] } else { -heights[j] };
+            let sh = heights[j][usize::from(mode.sign(j) < 0)];
             let at = at.limited(leg);
             for (k, limit) in leg.limits.iter().enumerate() {
                 if !visit(Constraint::Limit(j, k), margin(limit, &at, sh, placement)) {
@@ -87,7 +102,7 @@ pub fn demands<T: Scalar, const D: usize, const N: usize>(
         let det = rows.det(mode);
         let mut det = if demand.sign > 0 { det } else { -det };
         if demand.margins.parallel > 0.0 {
-            let unit = unit_of_det(robot, &legs, &rows, mode);
+            let unit = unit_of_det(robot, legs, &rows, mode);
             det = det - unit.scale(Interval::point(demand.margins.parallel));
         }
         if !visit(Constraint::Det, det) {

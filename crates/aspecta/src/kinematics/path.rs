@@ -1,9 +1,9 @@
 //! Pieces of path in pose coordinates, proved to lie in one aspect all along.
 
-use super::demand::{Demand, demands};
+use super::chart::Chart;
+use super::demand::{Demand, demands_of};
 use super::for_platform;
 use super::modal::Constraint;
-use super::placement::Placement;
 use crate::num::{Interval, Scalar, Slope};
 use crate::robot::Robot;
 
@@ -117,11 +117,18 @@ const SHORTEST: f64 = 1e-12;
 /// on [0, t*] both postures of leg j have all others > 0: the robot can go to X(t*) in one posture and come back in the other, its
 /// det A ≠ 0 all the while.
 pub fn along(robot: &Robot, demand: &Demand, curve: &Curve, effort: usize) -> Along {
-    for_platform!(robot.platform, along_in(robot, demand, curve, effort))
+    along_in_chart(robot, &Chart::Pose, demand, curve, effort)
+}
+
+/// [`along`] for a curve in the coordinates of a chart. Its leg's own s B_jj > 0 is demanded in place of H_j > 0; margins and crossings
+/// are those of poses.
+fn along_in_chart(robot: &Robot, chart: &Chart, demand: &Demand, curve: &Curve, effort: usize) -> Along {
+    for_platform!(robot.platform, along_in(robot, chart, demand, curve, effort))
 }
 
 fn along_in<const D: usize, const N: usize>(
     robot: &Robot,
+    chart: &Chart,
     demand: &Demand,
     curve: &Curve,
     effort: usize,
@@ -133,7 +140,7 @@ fn along_in<const D: usize, const N: usize>(
     let mut since: Option<f64> = None;
     while let Some((from, to)) = open.pop() {
         spent += 1;
-        match stretch::<D, N>(robot, demand, curve, Interval::new(from, to)) {
+        match stretch::<D, N>(robot, chart, demand, curve, Interval::new(from, to)) {
             Stretch::Inside => since = None,
             Stretch::Crossing => _ = since.get_or_insert(from),
             Stretch::Beyond => {
@@ -164,7 +171,7 @@ fn along_in<const D: usize, const N: usize>(
             }
         }
     }
-    let at_end = |_: &usize| stretch::<D, N>(robot, demand, curve, Interval::point(1.0));
+    let at_end = |_: &usize| stretch::<D, N>(robot, chart, demand, curve, Interval::point(1.0));
     match (doubt, demand.crossing.as_ref().map(at_end)) {
         (Some((constraint, from, to)), _) => Along::Undecided { constraint, from, to },
         (None, Some(Stretch::Beyond)) => Along::Crossed { from: since.unwrap_or(0.0), to: 1.0 },
@@ -186,13 +193,15 @@ enum Stretch {
 /// One stretch of t.
 fn stretch<const D: usize, const N: usize>(
     robot: &Robot,
+    chart: &Chart,
     demand: &Demand,
     curve: &Curve,
     range: Interval,
 ) -> Stretch {
     let x = curve.over::<N>(range);
+    let (placement, legs) = chart.at::<_, D, N>(robot, &x, |k| x[k].sin_cos());
     let mut result = Stretch::Inside;
-    demands::<_, D, N>(robot, &Placement::at(robot.platform, &x), demand, |constraint, value| {
+    demands_of(robot, &placement, &legs, demand, |constraint, value| {
         let value = value.tightened().range;
         if demand.crossing.is_some_and(|j| constraint == Constraint::Reach(j)) {
             if value.is_negative() {
@@ -217,7 +226,18 @@ fn stretch<const D: usize, const N: usize>(
 impl Along {
     /// Whether the straight segment between two poses is proved to lie in a class of aspects.
     pub fn is_inside(robot: &Robot, demand: &Demand, ends: [&[f64]; 2], effort: usize) -> bool {
-        along(robot, demand, &Curve::segment(ends[0], ends[1]), effort) == Self::Inside
+        Self::is_inside_of(robot, &Chart::Pose, demand, ends, effort)
+    }
+
+    /// The same of a segment that is straight in the coordinates of a chart.
+    pub fn is_inside_of(
+        robot: &Robot,
+        chart: &Chart,
+        demand: &Demand,
+        ends: [&[f64]; 2],
+        effort: usize,
+    ) -> bool {
+        along_in_chart(robot, chart, demand, &Curve::segment(ends[0], ends[1]), effort) == Self::Inside
     }
 }
 

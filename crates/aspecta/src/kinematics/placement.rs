@@ -44,6 +44,16 @@ impl<T: Scalar, const D: usize> Placement<T, D> {
         placement
     }
 
+    /// The placement about the fixed point that takes the orthonormal axes `body` of the platform to those in `base`.
+    pub fn taking(body: &[[Interval; 3]; 3], base: &[[T; D]; 3]) -> Self {
+        let mut rotation = [[T::zero(); D]; D];
+        for k in 0..D {
+            let across = base.map(|axis| axis[k]);
+            rotation[k] = each!(|j| dot_constant(&body.map(|axis| axis[j]), &across).tightened());
+        }
+        Self { origin: [T::zero(); D], rotation: Some(rotation) }
+    }
+
     /// The placement displaced by `z`: moved by its translations and then, about its own origin, turned by
     /// R_z R_y R_x of its angles (by the angle, in the plane) in the axes of the base. `turn[k]` holds (sin, cos) of the angle z_k. Near z = 0 these
     /// are coordinates of the poses without any singularity; see [`displacement_row`].

@@ -2,7 +2,7 @@
 
 use super::tree::{ClassSet, Node, Paving};
 use crate::kinematics::WorkingMode;
-use crate::kinematics::chart::{Chart, Fold};
+use crate::kinematics::chart::Chart;
 use crate::kinematics::limits::margin;
 use crate::kinematics::modal::{LegClosure, ModalRows};
 use crate::kinematics::placement::Placement;
@@ -39,7 +39,7 @@ pub(super) struct Classifier<'a, const D: usize, const N: usize, const M: usize>
     modes: &'a [WorkingMode],
     chart: &'a Chart,
     /// The charts that cover part of this one.
-    folds: &'a [Fold],
+    charts: &'a [Chart],
     window: &'a Window,
     depth: u32,
     /// Slabs by coordinate and index; a coordinate that does not vary has one, a level that is nearly empty has none.
@@ -53,7 +53,7 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
     pub(super) fn new(
         robot: &'a Robot,
         paving: &'a Paving,
-        folds: &'a [Fold],
+        charts: &'a [Chart],
         depth: u32,
         boxes: usize,
     ) -> Self {
@@ -61,7 +61,7 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
         axes.copy_from_slice(&paving.axes);
         let (modes, chart, window) = (&paving.modes, &paving.chart, &paving.window);
         let slabs = std::array::from_fn(|_| Vec::new());
-        let mut classifier = Self { robot, modes, chart, folds, window, depth, slabs, axes };
+        let mut classifier = Self { robot, modes, chart, charts, window, depth, slabs, axes };
         if boxes << 3 > 1 << depth {
             classifier.slabs = std::array::from_fn(|k| {
                 let count = if axes.contains(&k) { 1 << depth } else { 1 };
@@ -141,9 +141,9 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
         if wanted == 0 {
             return;
         }
-        for fold in self.folds {
+        for chart in self.charts {
             let covers: ArrayVec<Mask, 4> =
-                fold.cover(&legs[fold.leg]).into_iter().map(|m| m.tightened().range.positive()).collect();
+                chart.cover(legs).into_iter().map(|m| m.tightened().range.positive()).collect();
             for (l, node) in boxes.iter_mut().enumerate() {
                 node.covered |= covers.iter().all(|positive| positive[l]);
             }

@@ -4,7 +4,7 @@ use super::budget::{Budget, Control, MAX_BOXES, PAVING_SHARE, Progress, Stop};
 use super::classify::Classifier;
 use super::tree::{ClassSet, MODES, Node, Paving};
 use crate::kinematics::WorkingMode;
-use crate::kinematics::chart::{Chart, Fold};
+use crate::kinematics::chart::Chart;
 use crate::num::LANES;
 use crate::robot::{Robot, Window};
 use rayon::prelude::*;
@@ -98,12 +98,12 @@ impl Paving {
         }
     }
 
-    /// Subdivides leaves, given in the order of their indices, and classifies their children; `folds` are the charts
+    /// Subdivides leaves, given in the order of their indices, and classifies their children; `charts` are those
     /// that cover part of this one. False if `stop` ended it before all were done.
     pub fn split(
         &mut self,
         robot: &Robot,
-        folds: &[Fold],
+        charts: &[Chart],
         leaves: &[u32],
         stop: &(impl Fn() -> bool + Sync),
     ) -> bool {
@@ -118,7 +118,7 @@ impl Paving {
         let mut all = true;
         for (depth, parents) in by_depth.iter().enumerate().filter(|(_, parents)| !parents.is_empty()) {
             let children = (depth as u32 + 1, parents.as_slice());
-            all &= for_paving!(robot, self.axes.len(), split_level(self, robot, folds, children, stop));
+            all &= for_paving!(robot, self.axes.len(), split_level(self, robot, charts, children, stop));
         }
         all
     }
@@ -127,11 +127,11 @@ impl Paving {
 fn split_level<const D: usize, const N: usize, const M: usize>(
     paving: &mut Paving,
     robot: &Robot,
-    folds: &[Fold],
+    charts: &[Chart],
     (depth, parents): (u32, &[u32]),
     stop: &(impl Fn() -> bool + Sync),
 ) -> bool {
-    let classifier = Classifier::<D, N, M>::new(robot, paving, folds, depth, parents.len() << M);
+    let classifier = Classifier::<D, N, M>::new(robot, paving, charts, depth, parents.len() << M);
     let families: Vec<Option<Vec<Node>>> = parents
         .par_chunks(CHUNK)
         .map(|chunk| (!stop()).then(|| subdivide::<D, N, M>(&paving.nodes, chunk, &classifier)))

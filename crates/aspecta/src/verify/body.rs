@@ -3,7 +3,7 @@
 //! Written for any scalar and independently of `kinematics`, but for the leg equation itself. Points have D = 2 or 3
 //! coordinates; there are up to three legs and coordinates, and entries beyond are zero.
 
-use crate::kinematics::chart::{Chart, Fold};
+use crate::kinematics::chart::{Chain, Chart};
 use crate::kinematics::leg::equation;
 use crate::num::{Interval, Jet, Scalar};
 use crate::robot::{Actuator, Leg, Limit, Platform, Robot};
@@ -17,16 +17,18 @@ pub(super) struct Body<'a, T, const D: usize> {
     origin: [T; D],
     /// Columns in the base; `None` for platforms that do not turn.
     rotation: Option<[[T; D]; D]>,
-    fold: Option<Folded<'a, T, D>>,
+    own: Option<Own<T, D>>,
 }
 
 /// The leg whose own coordinates are used.
-struct Folded<'a, T, const D: usize> {
-    fold: &'a Fold,
+struct Own<T, const D: usize> {
+    leg: usize,
     cos: T,
     sin: T,
     /// C − A in the crank's frame (radial, tangential, axial).
     span: [T; D],
+    /// |∂f/∂q| per tangential component of C − A.
+    swing: Interval,
 }
 
 /// A leg in one posture.
@@ -75,10 +77,10 @@ fn turned<T: Scalar, const D: usize>(cos: T, sin: T, v: &[T; D]) -> [T; D] {
 impl<'a, T: Scalar, const D: usize> Body<'a, T, D> {
     /// The platform at the point y of the chart.
     pub(super) fn new(robot: &'a Robot, chart: &'a Chart, y: &[T; MOST]) -> Self {
-        let rotation = rotation(robot.platform, y);
         let zero = T::zero();
-        let mut body = Self { robot, origin: [zero; D], rotation, fold: None };
+        let mut body = Self { robot, origin: [zero; D], rotation: rotation(robot.platform, y), own: None };
         match chart {
+            Chart::Chain(chain) => body.turn_by(chain, y),
             Chart::Pose if robot.platform == Platform::TurningBody => {}
             Chart::Pose => body.origin.copy_from_slice(&y[..D]),
             Chart::Fold(fold) => {
@@ -94,15 +96,52 @@ impl<'a, T: Scalar, const D: usize> Body<'a, T, D> {
                 }
                 let (d, arm) = (out_of_frame(leg, &turned(cos, sin, &span)), body.arm(leg));
                 body.origin = std::array::from_fn(|k| d[k] + (T::constant(leg.anchor[k]) - arm[k]));
-                body.fold = Some(Folded { fold, cos, sin, span });
+                body.own = Some(Own { leg: fold.leg, cos, sin, span, swing: fold.crank + fold.crank });
             }
         }
         body
     }
 
+    /// Puts the platform where the angles of a chain do: R = R_z(q) R_y(a) R_z(ψ) R_y(b) R_z(ϑ) in the leg's frame, of a platform whose
+    /// joint is along z.
+    fn turn_by(&mut self, chain: &Chain, y: &[T; MOST]) {
+        let leg = &self.robot.legs[chain.leg];
+        let Actuator::Spherical { proximal: (cos_a, sin_a), distal_cos: cos_b } = leg.actuator else {
+            return;
+        };
+        let (zero, one) = (T::zero(), T::constant(Interval::point(1.0)));
+        let sin_b = (Interval::point(1.0) - cos_b.square()).sqrt();
+        let ((sin_q, cos_q), (sin_e, cos_e), (sin_t, cos_t)) =
+            (y[0].sin_cos(), y[1].sin_cos(), y[2].sin_cos());
+        let tilted = |cos: Interval, sin: Interval, v: [T; D]| {
+            let (x, z) = (v[0], v[D - 1]);
+            let mut w = v;
+            (w[0], w[D - 1]) = (x.scale(cos) + z.scale(sin), z.scale(cos) - x.scale(sin));
+            w
+        };
+        let in_crank = |v: [T; D]| tilted(cos_a, sin_a, turned(cos_e, sin_e, &tilted(cos_b, sin_b, v)));
+        let in_base =
+            |v: [T; D]| out_of_frame(leg, &turned(cos_q, sin_q, &in_crank(turned(cos_t, sin_t, &v))));
+        let unit = |i: usize| std::array::from_fn(|k| if i == k { one } else { zero });
+        // The platform's axes, at ϑ = 0, lie along y, −x and z.
+        let (x, y, z) = (in_base(unit(0)), in_base(unit(1)), in_base(unit(2)));
+        let axes = [y, x.map(|x| -x), z];
+        let body = chain.body(self.robot);
+        self.rotation = Some(std::array::from_fn(|i| {
+            std::array::from_fn(|k| times(|a| body[a][i], &axes.map(|v| v[k])))
+        }));
+        self.own =
+            Some(Own { leg: chain.leg, cos: cos_q, sin: sin_q, span: in_crank(unit(2)), swing: sin_a });
+    }
+
     /// Where the platform's origin is.
     pub(super) fn origin(&self) -> &[T; D] {
         &self.origin
+    }
+
+    /// Leg j, if its own coordinates are used.
+    fn own_of(&self, j: usize) -> Option<&Own<T, D>> {
+        self.own.as_ref().filter(|own| own.leg == j)
     }
 
     fn turn(&self, v: &[Interval; 3]) -> [T; D] {
@@ -121,8 +160,8 @@ impl<'a, T: Scalar, const D: usize> Body<'a, T, D> {
     /// C − A in the frame of leg j.
     pub(super) fn span(&self, j: usize) -> [T; D] {
         let leg = &self.robot.legs[j];
-        if let Some(folded) = self.fold.as_ref().filter(|f| f.fold.leg == j) {
-            return turned(folded.cos, folded.sin, &folded.span);
+        if let Some(own) = self.own_of(j) {
+            return turned(own.cos, own.sin, &own.span);
         }
         let offset: [T; D] = match self.rotation {
             None => std::array::from_fn(|k| T::constant(leg.attachment[k] - leg.anchor[k])),
@@ -162,9 +201,9 @@ impl<'a, T: Scalar, const D: usize> Body<'a, T, D> {
     /// H of leg j, given C − A in its frame: the discriminant of its equation. With d = (α, β, γ), f = k − a cos q − b sin q
     /// has solutions where H = a² + b² − k² ≥ 0, and there ∂f/∂q = ±√H.
     pub(super) fn reach(&self, j: usize, d: &[T; D]) -> Option<T> {
-        if let Some(folded) = self.fold.as_ref().filter(|f| f.fold.leg == j) {
-            // ∂f/∂q = −2LM p, and the tangential part of C − A is M p.
-            return Some(folded.span[1].scale(folded.fold.crank + folded.fold.crank).square());
+        if let Some(own) = self.own_of(j) {
+            // ∂f/∂q = −2L (C − A)_tangential, or sin a times it.
+            return Some(own.span[1].scale(own.swing).square());
         }
         let circle = |a: T, b: T, k: T| a.square() + b.square() - k.square();
         match &self.robot.legs[j].actuator {
@@ -179,13 +218,13 @@ impl<'a, T: Scalar, const D: usize> Body<'a, T, D> {
         }
     }
 
-    /// Leg j with q given, at C − A = `span`. For the leg of the fold q is a coordinate, and `q` is not looked at.
+    /// Leg j with q given, at C − A = `span`. Where the leg's own coordinates are used q is one of them, and `q` is not looked at.
     pub(super) fn leg(&self, j: usize, span: &[T; D], q: T) -> LegState<T> {
         let leg = &self.robot.legs[j];
         let velocities = self.velocities(j);
-        // f does not change if d and q turn together about the crank's axis: the leg of the fold is looked at in its crank's frame,
+        // f does not change if d and q turn together about the crank's axis: a leg in its own coordinates is looked at in its crank's frame,
         // where q = 0.
-        let (d, moves, at) = match self.fold.as_ref().filter(|f| f.fold.leg == j) {
+        let (d, moves, at) = match self.own_of(j) {
             Some(f) => (f.span, velocities.map(|v| turned(f.cos, -f.sin, &v)), T::zero()),
             None => (*span, velocities, q),
         };
@@ -236,8 +275,8 @@ impl<'a, T: Scalar, const D: usize> Body<'a, T, D> {
 
     /// (sin q, cos q).
     fn crank(&self, j: usize, q: T) -> (T, T) {
-        match self.fold.as_ref().filter(|f| f.fold.leg == j) {
-            Some(f) => (f.sin, f.cos),
+        match self.own_of(j) {
+            Some(own) => (own.sin, own.cos),
             None => q.sin_cos(),
         }
     }
@@ -266,6 +305,15 @@ impl<'a, T: Scalar, const D: usize> Body<'a, T, D> {
             _ => q,
         };
         rod.map(|x| x / length)
+    }
+}
+
+impl Body<'_, Interval, 3> {
+    /// The pose of a platform that turns about a point, as far as these are small intervals away from the poles of the pitch; else anything.
+    pub(super) fn roll_pitch_yaw(&self) -> [Interval; MOST] {
+        let Some([x, y, z]) = self.rotation else { return [Interval::ENTIRE; MOST] };
+        let angle = |cos, sin| Interval::angle(cos, sin).unwrap_or(Interval::ENTIRE);
+        [angle(z[2], y[2]), angle((x[0].square() + x[1].square()).sqrt(), -x[2]), angle(x[0], x[1])]
     }
 }
 

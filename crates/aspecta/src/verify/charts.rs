@@ -13,6 +13,12 @@ use crate::robot::{Actuator, Platform, Robot, Window};
 /// The window of a chart, given that of the poses.
 pub(super) fn window_of(chart: &Chart, poses: &Window) -> Window {
     let mut window = poses.clone();
+    if let Chart::Chain(_) = chart {
+        for k in 0..3 {
+            window.ranges[k] = (-Interval::PI.hi, Interval::PI.hi);
+            (window.glued[k], window.angles[k]) = (true, true);
+        }
+    }
     if let Chart::Fold(fold) = chart {
         let ranges = [
             Some((-Interval::PI.hi, Interval::PI.hi)),
@@ -29,10 +35,9 @@ pub(super) fn window_of(chart: &Chart, poses: &Window) -> Window {
     window
 }
 
-/// The folds of a certificate, by sheet from 1.
-pub(super) fn folds(certificate: &Certificate) -> Vec<&Fold> {
-    let charts = certificate.sheets.iter().map(|sheet| &sheet.chart);
-    charts.filter_map(|chart| if let Chart::Fold(fold) = chart { Some(fold) } else { None }).collect()
+/// The charts of a certificate, by sheet from 1.
+pub(super) fn of(certificate: &Certificate) -> Vec<&Chart> {
+    certificate.sheets.iter().skip(1).map(|sheet| &sheet.chart).collect()
 }
 
 /// What is wrong with the window of the poses.
@@ -64,8 +69,9 @@ pub(super) fn fault_of_fold(robot: &Robot, poses: &Window, fold: &Fold) -> Optio
 /// Most boxes into which a chart is cut to prove it disjoint from another.
 const EFFORT: usize = 100_000;
 
-/// Whether no configuration is in two charts of folds; `setting` is that of the chart of `fold`.
-pub(super) fn are_disjoint(setting: &Setting<'_>, fold: &Fold, other: &Fold) -> bool {
+/// Whether no configuration is in two charts; `setting` is that of the first.
+pub(super) fn are_disjoint(setting: &Setting<'_>, chart: &Chart, other_chart: &Chart) -> bool {
+    let (Chart::Fold(fold), Chart::Fold(other)) = (chart, other_chart) else { return false };
     if fold.leg == other.leg {
         return match (fold.axial, other.axial) {
             (Some(a), Some(b)) => a.1 < b.0 || b.1 < a.0,
@@ -77,7 +83,7 @@ pub(super) fn are_disjoint(setting: &Setting<'_>, fold: &Fold, other: &Fold) -> 
     let mut open: Vec<Coordinates> = vec![std::array::from_fn(range)];
     for _ in 0..EFFORT {
         let Some(y) = open.pop() else { return true };
-        if !View::new(setting, y).is_clear_of(other) {
+        if !View::new(setting, y).is_clear_of(other_chart) {
             let (low, high) = halves(setting, &y);
             open.extend([low, high]);
         }
@@ -89,6 +95,9 @@ pub(super) fn are_disjoint(setting: &Setting<'_>, fold: &Fold, other: &Fold) -> 
 pub(super) fn poses(setting: &Setting<'_>, y: &Coordinates) -> Coordinates {
     let mut pose = *y;
     match setting.robot.platform.space() {
+        _ if matches!(setting.chart, Chart::Chain(_)) => {
+            return Body::<Interval, 3>::new(setting.robot, setting.chart, y).roll_pitch_yaw();
+        }
         2 => pose[..2].copy_from_slice(Body::<Interval, 2>::new(setting.robot, setting.chart, y).origin()),
         _ => pose.copy_from_slice(Body::<Interval, 3>::new(setting.robot, setting.chart, y).origin()),
     }
@@ -98,12 +107,15 @@ pub(super) fn poses(setting: &Setting<'_>, y: &Coordinates) -> Coordinates {
 /// Most times a face is halved to see what it touches.
 const HALVINGS: u32 = 12;
 
-/// The leaves of sheet 0 that a leaf of a fold may meet on the outer faces of the chart: those of p, and of w in space. They
+/// The leaves of sheet 0 that a leaf of another chart may meet on its outer faces: for a fold those of p, and of w in space. They
 /// are not covered and have a class in common with it.
 pub(super) fn met_outside(setting: &Setting<'_>, cells: &Cells, leaf: usize, sheet_0: &Cells) -> Vec<usize> {
     let claims = cells.leaves[leaf].claims;
     let y = cells.of(leaf);
     let mut found = Vec::new();
+    if setting.chart.is_whole() {
+        return found;
+    }
     for k in 1..setting.robot.platform.space() {
         let [low, high] = cells.at_ends(leaf, k);
         for (_, end) in [(low, y[k].lo), (high, y[k].hi)].into_iter().filter(|(outer, _)| *outer) {

@@ -3,7 +3,7 @@
 use super::view::{Coordinates, Existence, Heights, Setting, View};
 use crate::certificate::Leaf;
 use crate::kinematics::WorkingMode;
-use crate::kinematics::chart::Fold;
+use crate::kinematics::chart::Chart;
 use crate::num::Interval;
 use crate::paving::ClassSet;
 
@@ -47,7 +47,7 @@ pub(super) fn sign_of(class: usize) -> f64 {
 pub(super) fn prove(
     setting: &Setting<'_>,
     modes: &[WorkingMode],
-    folds: &[&Fold],
+    charts: &[&Chart],
     y: Coordinates,
     claims: Leaf,
 ) -> Result<usize, Unproved> {
@@ -66,7 +66,7 @@ pub(super) fn prove(
             continue;
         }
         spent += 1;
-        let doubt = settle(setting, y, modes, folds, &mut needs)?;
+        let doubt = settle(setting, y, modes, charts, &mut needs)?;
         if needs.none() {
             continue;
         }
@@ -92,11 +92,11 @@ fn settle(
     setting: &Setting<'_>,
     y: Coordinates,
     modes: &[WorkingMode],
-    folds: &[&Fold],
+    charts: &[&Chart],
     needs: &mut Needs,
 ) -> Result<&'static str, Unproved> {
     let view = View::new(setting, y);
-    if needs.covered && (view.cannot_close() || folds.iter().any(|fold| view.is_covered_by(fold))) {
+    if needs.covered && (view.cannot_close() || charts.iter().any(|chart| view.is_covered_by(chart))) {
         needs.covered = false;
     }
     let mut doubt = None;

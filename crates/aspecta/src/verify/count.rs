@@ -5,7 +5,7 @@ use super::links::Link;
 use super::view::View;
 use super::{Checked, Fault, Sheet, Verdict, charts};
 use crate::certificate::{Certificate, Claim, Leaf};
-use crate::kinematics::chart::Fold;
+use crate::kinematics::chart::Chart;
 use crate::num::Interval;
 use crate::paving::{ClassSet, Control, Progress};
 use rayon::prelude::*;
@@ -19,7 +19,7 @@ struct Leaves<'a> {
     all: Vec<Leaf>,
     /// Pairs of one sheet whose boxes share a point.
     touching: Vec<(u32, u32)>,
-    /// Pairs of a leaf of a fold and one of sheet 0 that may share a configuration.
+    /// Pairs of a leaf of another sheet and one of sheet 0 that may share a configuration.
     across: Vec<(u32, u32)>,
     /// Leaves at pitch −π/2 and at π/2, where roll and yaw are one.
     poles: [Vec<usize>; 2],
@@ -28,7 +28,7 @@ struct Leaves<'a> {
 pub(super) fn check(
     certificate: &Certificate,
     sheets: &[Sheet<'_>],
-    folds: &[&Fold],
+    charts: &[&Chart],
     links: &[Link],
     control: &Control<'_>,
     verdict: &mut Verdict,
@@ -38,7 +38,7 @@ pub(super) fn check(
     let classes = 2 * certificate.modes.len();
     let count = |class: usize| {
         (control.progress)(Progress { stage: "counting", done: class as u64, total: classes as u64 });
-        Claim { low: leaves.low(class, folds), high: leaves.high(class, links) }
+        Claim { low: leaves.low(class, charts), high: leaves.high(class, links) }
     };
     let counted: Vec<Claim> = (0..classes).into_par_iter().map(count).collect();
     for (class, (&proved, &claimed)) in counted.iter().zip(&certificate.claims).enumerate() {
@@ -125,7 +125,7 @@ impl<'a> Leaves<'a> {
     }
 
     /// Components of G⁺ that certainly hold an aspect.
-    fn low(&self, class: usize, folds: &[&Fold]) -> usize {
+    fn low(&self, class: usize, charts: &[&Chart]) -> usize {
         let bit: ClassSet = 1 << class;
         let is_member = |i: usize| {
             let leaf = &self.all[i];
@@ -144,21 +144,21 @@ impl<'a> Leaves<'a> {
         let holds_some = |i: &usize| {
             self.all[*i].inside & bit != 0
                 && is_member(*i)
-                && (self.is_of_fold(*i) || self.is_clear(*i, folds))
+                && (self.is_of_chart(*i) || self.is_clear(*i, charts))
         };
         sets.count((0..self.all.len()).filter(holds_some))
     }
 
-    fn is_of_fold(&self, leaf: usize) -> bool {
+    fn is_of_chart(&self, leaf: usize) -> bool {
         leaf >= self.sheets[0].cells.leaves.len()
     }
 
-    /// Whether the middle of a leaf of sheet 0 is in no fold's chart.
-    fn is_clear(&self, leaf: usize, folds: &[&Fold]) -> bool {
+    /// Whether the middle of a leaf of sheet 0 is in no other chart.
+    fn is_clear(&self, leaf: usize, charts: &[&Chart]) -> bool {
         let middle = self.sheets[0].cells.of(leaf).map(|x| Interval::point(x.mid()));
-        folds.is_empty() || {
+        charts.is_empty() || {
             let view = View::new(&self.sheets[0].setting, middle);
-            folds.iter().all(|fold| view.is_clear_of(fold))
+            charts.iter().all(|chart| view.is_clear_of(chart))
         }
     }
 

@@ -32,7 +32,7 @@ fn second<S: Scalar, const D: usize>(
     let mut rows = [[Twice::<S>::zero(); MOST]; MOST];
     for j in 0..n {
         let span = body.span(j);
-        if setting.is_fold(j) {
+        if setting.is_own(j) {
             rows[j] = body.leg(j, &span, line[0]).row;
             continue;
         }

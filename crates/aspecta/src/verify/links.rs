@@ -53,7 +53,8 @@ fn link_of_join(
     sheets: &[Sheet<'_>],
     join: &Join,
 ) -> Result<Vec<(usize, usize)>, String> {
-    let window = &certificate.window;
+    let setting = &sheets[join.sheet].setting;
+    let window = &setting.window;
     let mut leaves = Vec::new();
     for (k, pose) in join.path.iter().enumerate() {
         let within =
@@ -61,15 +62,18 @@ fn link_of_join(
         if !pose.iter().enumerate().all(within) {
             return Err(format!("pose {k} of the path is beyond the window"));
         }
-        let here = inside(sheets, 0, &point(pose), join.class);
+        let here = inside(sheets, join.sheet, &point(pose), join.class);
         if here.is_empty() && (k == 0 || k + 1 == join.path.len()) {
-            return Err(format!("pose {k}, an end of the path, lies in no inside leaf of sheet 0"));
+            return Err(format!(
+                "pose {k}, an end of the path, lies in no inside leaf of sheet {}",
+                join.sheet
+            ));
         }
         leaves.extend(here);
     }
     let mode = certificate.modes[join.class / 2];
     for (k, ends) in join.path.windows(2).enumerate() {
-        if !is_inside_all_along(&sheets[0].setting, mode, sign_of(join.class), &ends[0], &ends[1]) {
+        if !is_inside_all_along(setting, mode, sign_of(join.class), &ends[0], &ends[1]) {
             return Err(format!("the segment from pose {k} is not proved to lie inside the class"));
         }
     }

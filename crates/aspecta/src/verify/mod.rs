@@ -6,17 +6,17 @@
 //!
 //! # Theorem
 //! Let S be the set of configurations (X, q) of a working mode s and a sign σ: H_j > 0, limits kept, s_j B_jj > 0, σ det A > 0, X in the
-//! window. Let closed boxes cover it: the leaves of sheet 0 that are not covered, and those of the folds. If all checks below
+//! window. Let closed boxes cover it: the leaves of sheet 0 that are not covered, and those of the other sheets. If all checks below
 //! succeed, then for each class `low` ≤ number of components of S ≤ `high`.
 //!
 //! - *Inside* leaves lie in S, *outside* leaves do not meet it, a *covered* leaf has all its configurations in the chart of one
-//!   fold (or of several), whose charts are disjoint. The rest is undecided.
+//!   fold (or of several), whose charts are disjoint, or in that of a chain, which holds all. The rest is undecided.
 //! - **Low.** Of a leaf of sheet 0 take the configurations that are not in the interior of a fold's chart. With the leaves of the
 //!   folds these closed sets cover S, so each component of S lies in one component of the graph G⁺ that joins any two which may share a
 //!   point. Leaves of one sheet do if their boxes touch (modulo full turns; at pitch ±π/2 always, roll and yaw being one); a
 //!   leaf of sheet 0 and one of a fold share points only on the outer faces of the fold's chart. A component of G⁺ with an inside
 //!   leaf of a fold, or one of sheet 0 whose middle is proved to be in no fold's chart, holds an aspect; different ones hold different ones.
-//! - **High.** P = min of σ det A, the H_j, the limits and the distances to faces that the user's window cuts, each divided by
+//! - **High.** P = min of σ det A, the h_j = √H_j, the limits and the distances to faces that the user's window cuts, each divided by
 //!   the same positive number everywhere, is continuous and vanishes on the boundary of S, so each component has a maximum of P. In a
 //!   *summitless* leaf there is none: on each part of it some tangent vector of the configurations makes every function grow that can be the
 //!   least there, or σ det A alone can be and is convex along a line. So each component has its maximum in an inside leaf that is not summitless. Inside leaves that touch, or are linked
@@ -25,7 +25,7 @@
 //! # Tangent vectors
 //! Configurations are the zeros of f_j(y, q_j). With n_j = ∂f_j/∂y, a velocity (ẏ, q̇) is tangent if n_j·ẏ + B_jj q̇_j = 0. Where B_jj ≠ 0
 //! this gives q̇_j. Where B_jj may vanish, ẏ is chosen exactly perpendicular to n_j and q̇_j = 0, or ẏ = −B_jj c and q̇_j = n_j·c: det A, B_jj
-//! and the limits are smooth functions of (y, q), so nothing grows without bound. H_j = B_jj² (B_jj²/4 for prismatic legs) grows where
+//! and the limits are smooth functions of (y, q), so nothing grows without bound. h_j = |B_jj| (|B_jj|/2 for prismatic legs) grows where
 //! s_j B_jj does. Near B_jj = 0 h_j = √H_j varies like the root of the box's width, so its range is cut too, with vectors for each part.
 //!
 //! # What is taken for granted
@@ -50,7 +50,7 @@ mod view;
 pub use verdict::{Checked, Counts, Fault, Verdict};
 
 use crate::certificate::Certificate;
-use crate::kinematics::chart::Fold;
+use crate::kinematics::chart::Chart;
 use crate::num::Interval;
 use crate::paving::{Control, Progress};
 use cells::Cells;
@@ -68,15 +68,15 @@ const ENOUGH: usize = 10;
 pub fn verify(certificate: &Certificate, control: &Control<'_>) -> Verdict {
     let mut verdict = Verdict::new(certificate);
     let sheets = sheets(certificate);
-    let folds = charts::folds(certificate);
-    check_charts(certificate, &sheets, &folds, &mut verdict);
+    let charts = charts::of(certificate);
+    check_charts(certificate, &sheets, &charts, &mut verdict);
     if verdict.faults.is_empty() {
-        check_leaves(certificate, &sheets, &folds, control, &mut verdict);
+        check_leaves(certificate, &sheets, &charts, control, &mut verdict);
     }
     if verdict.faults.is_empty() && !control.is_cancelled() {
         let links = links::check(certificate, &sheets, &mut verdict);
         if verdict.faults.is_empty() {
-            count::check(certificate, &sheets, &folds, &links, control, &mut verdict);
+            count::check(certificate, &sheets, &charts, &links, control, &mut verdict);
         }
     }
     verdict.complete = !control.is_cancelled();
@@ -102,21 +102,23 @@ fn sheets(certificate: &Certificate) -> Vec<Sheet<'_>> {
     .collect()
 }
 
-fn check_charts(certificate: &Certificate, sheets: &[Sheet<'_>], folds: &[&Fold], verdict: &mut Verdict) {
+fn check_charts(certificate: &Certificate, sheets: &[Sheet<'_>], charts: &[&Chart], verdict: &mut Verdict) {
     if let Some(reason) = charts::fault_of_window(certificate) {
         verdict.faults.push(Fault::of_sheet(0, reason));
     }
-    for (k, fold) in folds.iter().enumerate() {
-        if let Some(reason) = charts::fault_of_fold(&certificate.robot, &certificate.window, fold) {
+    for (k, chart) in charts.iter().enumerate() {
+        if let Chart::Fold(fold) = chart
+            && let Some(reason) = charts::fault_of_fold(&certificate.robot, &certificate.window, fold)
+        {
             verdict.faults.push(Fault::of_sheet(k + 1, reason.into()));
         }
     }
     if !verdict.faults.is_empty() {
         return;
     }
-    for (k, fold) in folds.iter().enumerate() {
-        for (l, other) in folds.iter().enumerate().skip(k + 1) {
-            if !charts::are_disjoint(&sheets[k + 1].setting, fold, other) {
+    for (k, chart) in charts.iter().enumerate() {
+        for (l, other) in charts.iter().enumerate().skip(k + 1) {
+            if !charts::are_disjoint(&sheets[k + 1].setting, chart, other) {
                 let reason = format!("its chart is not proved to be disjoint from that of sheet {}", l + 1);
                 verdict.faults.push(Fault::of_sheet(k + 1, reason));
             }
@@ -127,7 +129,7 @@ fn check_charts(certificate: &Certificate, sheets: &[Sheet<'_>], folds: &[&Fold]
 fn check_leaves(
     certificate: &Certificate,
     sheets: &[Sheet<'_>],
-    folds: &[&Fold],
+    charts: &[&Chart],
     control: &Control<'_>,
     verdict: &mut Verdict,
 ) {
@@ -143,7 +145,7 @@ fn check_leaves(
                 (control.progress)(Progress { stage: "proving boxes", done: so_far, total });
             }
             let (claims, y) = (sheet.cells.leaves[leaf].claims, sheet.cells.of(leaf));
-            match claims::prove(&sheet.setting, &certificate.modes, folds, y, claims) {
+            match claims::prove(&sheet.setting, &certificate.modes, charts, y, claims) {
                 Ok(spent) => {
                     boxes.fetch_add(spent as u64, Ordering::Relaxed);
                     None

@@ -5,7 +5,7 @@ use super::curvature::has_no_maximum;
 use super::direction::climbable;
 use super::view::{Coordinates, ONE, Posture, View, ZERO};
 use crate::kinematics::WorkingMode;
-use crate::num::Interval;
+use crate::num::{Interval, Scalar};
 
 /// A velocity: of the coordinates, then of each leg's q.
 type Velocity = [Interval; 6];
@@ -63,10 +63,11 @@ impl View<'_> {
         }];
         for (j, leg) in legs.iter().enumerate().filter_map(|(j, leg)| Some((j, (*leg)?))) {
             if self.setting.robot.legs[j].actuator.postures() == 2 {
-                // H = B² (B²/4): where s B > 0 it grows as s B does.
+                // √H = |B| (|B|/2) grows as s B does where that is positive.
                 let s = exact(f64::from(mode.sign(j)));
                 let gradient = leg.over.slope.gradient.map(|g| g * s);
-                all.push(Constraint { value: self.reach[j] / exact(scale.reach[j]), gradient });
+                let value = (self.reach[j] / exact(scale.reach[j])).sqrt();
+                all.push(Constraint { value, gradient });
             }
             for (k, limit) in leg.over.limits.iter().enumerate() {
                 let value = leg.limits[k] / exact(scale.limits[j][k]);
@@ -95,7 +96,7 @@ impl View<'_> {
     fn choices_of_loose(&self, legs: &[Option<&Posture>; MOST]) -> Vec<Vec<usize>> {
         let rooted = |j: usize| {
             legs[j].is_some()
-                && !self.setting.is_fold(j)
+                && !self.setting.is_own(j)
                 && self.setting.robot.legs[j].actuator.postures() == 2
         };
         let must = |j: usize| legs[j].is_some_and(|leg| leg.loose);

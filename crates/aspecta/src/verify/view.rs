@@ -23,9 +23,9 @@ pub(super) struct Setting<'a> {
 }
 
 impl Setting<'_> {
-    /// Whether leg j is that of the fold, so that its q is the first coordinate.
-    pub(super) fn is_fold(&self, j: usize) -> bool {
-        matches!(self.chart, Chart::Fold(fold) if fold.leg == j)
+    /// Whether leg j is the chart's own, so that its q is the first coordinate.
+    pub(super) fn is_own(&self, j: usize) -> bool {
+        self.chart.leg() == Some(j)
     }
 }
 
@@ -140,7 +140,7 @@ impl<'a> View<'a> {
     ) -> Posture {
         let sign = if posture == 0 { 1.0 } else { -1.0 };
         let actuator = &self.setting.robot.legs[j].actuator;
-        let is_coordinate = self.setting.is_fold(j);
+        let is_coordinate = self.setting.is_own(j);
         let mut found = Joint {
             q: self.y[0],
             middle: Interval::point(self.y[0].mid()),
@@ -301,14 +301,22 @@ impl<'a> View<'a> {
         (over, range)
     }
 
-    /// Whether the chart of a fold holds all configurations of the box (of pose coordinates).
-    pub(super) fn is_covered_by(&self, fold: &Fold) -> bool {
-        self.fold_margins(fold).iter().all(|m| m.lo >= 0.0)
+    /// Whether a chart holds all configurations of the box (of pose coordinates).
+    pub(super) fn is_covered_by(&self, chart: &Chart) -> bool {
+        self.margins_of(chart).iter().all(|m| m.lo >= 0.0)
     }
 
-    /// Whether the chart of a fold holds no configuration of the box.
-    pub(super) fn is_clear_of(&self, fold: &Fold) -> bool {
-        self.cannot_close() || self.fold_margins(fold).iter().any(|m| m.is_negative())
+    /// Whether a chart holds no configuration of the box.
+    pub(super) fn is_clear_of(&self, chart: &Chart) -> bool {
+        self.cannot_close() || self.margins_of(chart).iter().any(|m| m.is_negative())
+    }
+
+    /// Functions that are all ≥ 0 where the chart holds the configurations, as far as the legs close: none if it holds all.
+    fn margins_of(&self, chart: &Chart) -> Vec<Interval> {
+        match chart {
+            Chart::Fold(fold) => self.fold_margins(fold),
+            Chart::Pose | Chart::Chain(_) => Vec::new(),
+        }
     }
 
     /// Functions of the leg of a fold that are all ≥ 0 where its chart holds the configurations, as far as the leg closes: the rod's

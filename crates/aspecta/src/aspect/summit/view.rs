@@ -207,7 +207,8 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
             let sign = f64::from(mode.sign(j));
             if leg.actuator.postures() == 2 {
                 let reach = self.reach[j].value.lane(lane).meet(part.heights[j].lane(lane).square());
-                add(reach, scale.reach[j], self.reach_along(frame, j, sign, lane));
+                let height = (reach / Interval::point(scale.reach[j])).sqrt();
+                add(height, 1.0, self.reach_along(frame, j, sign, lane));
             }
             let limits = &part.limits[j][usize::from(mode.sign(j) < 0)];
             for (limit, &scale) in limits.iter().zip(&scale.limits[j]) {
