@@ -133,7 +133,7 @@ mod tests {
             let chart = Chart::Chain(Chain { leg });
             let mut compared = 0;
             for _ in 0..1000 {
-                let y: [f64; 3] = std::array::from_fn(|_| 6.28 * (random.unit() - 0.5));
+                let y: [f64; 3] = std::array::from_fn(|_| random.within((-3.1, 3.1)));
                 let (placement, legs) = chart.at::<f64, 3, 3>(&robot, &y, |k| y[k].sin_cos());
                 let r = placement.rotation().unwrap();
                 let dots = |i: usize, j: usize| (0..3).map(|k| r[k][i] * r[k][j]).sum::<f64>();
@@ -177,7 +177,7 @@ mod tests {
         let mut random = Random::new(8);
         let mut bounded = 0;
         for _ in 0..500 {
-            let corner: [f64; 3] = std::array::from_fn(|_| 6.2 * (random.unit() - 0.5));
+            let corner: [f64; 3] = std::array::from_fn(|_| random.within((-3.1, 3.1)));
             let cell = corner.map(|x| Interval::new(x, x + 0.02));
             let image = chart.pose::<3, 3>(&robot, &cell);
             let y: [f64; 3] = corner.map(|x| x + 0.02 * random.unit());
