@@ -4,7 +4,7 @@
 mod split_mix;
 mod sweep;
 
-use aspecta::aspect::{Analysis, AnalysisError, AspectClass, Options, analyze};
+use aspecta::aspect::{Analysis, AnalysisError, AspectClass, DetSign, Options, Place, Sample, analyze};
 use aspecta::certificate::Claim;
 use aspecta::paving::{Budget, Control, Stop};
 use aspecta::robot::{Leg, Platform, Robot, SliceError, catalogue};
@@ -118,12 +118,10 @@ fn the_certificate_of_a_delta_is_verified() {
 
 // A platform that turns about a point: all orientations, in the joint angles of a leg.
 
-/// The generic spherical robot with cranks from 20° to 100°, its legs from `first` on.
+/// The generic spherical robot with the ranges of its motors, its legs from `first` on.
 fn sphere(first: usize) -> Robot {
-    let text = include_str!("fixtures/sphere.toml");
-    let limited = text.replace("} }\n", "} }\nlimits = { actuator = { deg = [20, 100] } }\n");
-    let mut robot = Robot::from_toml(&limited, "sphere.toml").unwrap();
-    assert!(robot.legs.iter().all(|leg| leg.limits.len() == 1));
+    let text = include_str!("fixtures/limited_sphere.toml");
+    let mut robot = Robot::from_toml(text, "limited_sphere.toml").unwrap();
     robot.legs.rotate_left(first);
     robot
 }
@@ -154,6 +152,40 @@ fn the_certificate_of_a_spherical_robot_is_verified() {
     assert!(verdict.is_verified(), "{:?}", verdict.faults);
     assert!(verdict.classes.iter().all(|class| class.proved == Claim { low: 2, high: Some(2) }));
     assert!(verdict.claims.covered > 1000 && verdict.claims.summitless > 1000, "{:?}", verdict.claims);
+}
+
+/// Whatever ends a run: poses are measured, and each aspect has a pose in it, joints to go with it, and bounds that hold both.
+#[test]
+fn aspects_of_a_spherical_robot_have_poses() {
+    let text = include_str!("fixtures/sphere.toml");
+    let robot = Robot::from_toml(text, "sphere.toml").unwrap();
+    let modes = vec!["+++".parse().unwrap()];
+    let budget = Budget { boxes: Some(1_000_000), ..Budget::default() };
+    let analysis = analyzed(&robot, &Options { modes, budget, ..Options::default() });
+    check_bounds(&analysis);
+    assert_eq!((analysis.run.stop, analysis.aspects.low), (Stop::Boxes, 2));
+    // The measure by chance.
+    let mut random = Random(5);
+    let volume: f64 = analysis.window.ranges.iter().map(|r| r.1 - r.0).product();
+    let mut hits = [0; 2];
+    const DRAWS: usize = 20_000;
+    for _ in 0..DRAWS {
+        let pose: Vec<f64> = analysis.window.ranges.iter().map(|r| random.within(r.0, r.1)).collect();
+        let Some(q) = robot.inverse_in(&pose, analysis.classes[0].mode).unwrap() else { continue };
+        hits[usize::from(robot.state(&pose, &q).unwrap().det_a < 0.0)] += 1;
+    }
+    for (k, class) in analysis.classes.iter().enumerate() {
+        let aspect = &class.aspects[0];
+        let measure = volume * hits[k] as f64 / DRAWS as f64;
+        let (least, most) = (aspect.measure, aspect.measure + class.undecided);
+        assert!(0.25 * measure < least && least < measure && measure < most, "{least} {measure} {most}");
+        let Sample { pose, q } = &aspect.sample;
+        assert_eq!(analysis.locate(k, pose), Place::Inside(aspect.id));
+        let state = robot.state(pose, q).unwrap();
+        assert_eq!((state.mode, DetSign::of(state.det_a)), (Some(class.mode), class.det_a));
+        let within = |(x, (lo, hi)): (&f64, &(f64, f64))| lo <= x && x <= hi;
+        assert!(pose.iter().zip(&aspect.w_bounds).all(within) && q.iter().zip(&aspect.q_bounds).all(within));
+    }
 }
 
 // The five-bar of the paper.

@@ -3,7 +3,6 @@
 //! U → −∞ at every boundary of S_{s,σ}, so a climb never leaves its aspect; each step is a segment proved by
 //! intervals to lie in S_{s,σ} ([`crate::kinematics::path::along`]). Pieces that a climb meets are one aspect with the piece it began in.
 
-use super::atlas::Leaf;
 use super::components::{Components, UnionFind};
 use crate::kinematics::chart::Chart;
 use crate::kinematics::demand::{Demand, demands_of};
@@ -103,8 +102,8 @@ fn climb<const D: usize, const N: usize>(
     ascend::<D, N>(robot, paving, class, &start, &mut |point| {
         path.push(point.to_vec());
         let here = paving.find(&|node| node.of_classes(class.bit), point);
-        let leaf = here.filter(|(_, surely)| *surely).map(|(node, _)| -> Leaf { (sheet, node) });
-        let piece = leaf.and_then(|leaf| components.piece_at(leaf));
+        let piece =
+            here.filter(|(_, surely)| *surely).and_then(|(node, _)| components.piece_at((sheet, node)));
         if let Some(piece) = piece.filter(|&piece| piece != from) {
             climb.met.push(piece);
             climb.path.points.clone_from(&path);

@@ -6,7 +6,7 @@ use crate::kinematics::WorkingMode;
 use crate::kinematics::chart::{Chart, charts};
 use crate::kinematics::for_platform;
 use crate::num::{Interval, LANES, Scalar};
-use crate::paving::{Budget, ClassSet, Control, Paving, Progress, for_paving};
+use crate::paving::{Budget, ClassSet, Control, Node, Paving, Progress, for_paving};
 use crate::robot::{Robot, Window};
 use rayon::prelude::*;
 
@@ -53,6 +53,8 @@ pub(super) struct Atlas<'a> {
 }
 
 impl<'a> Atlas<'a> {
+    /// Sheet 0 paved evenly, the others not at all: coarsely, to be refined where the search needs it, or, if a chart replaces all its boxes,
+    /// as finely as measures, pictures and plans want it, for up to half of the boxes.
     pub(super) fn new(
         robot: &'a Robot,
         window: &Window,
@@ -61,11 +63,13 @@ impl<'a> Atlas<'a> {
         control: &Control<'_>,
     ) -> Self {
         let charts = charts(robot, window);
-        let mut sheets = vec![Paving::new(robot, window, modes, budget, control)];
-        if charts.iter().any(Chart::is_whole) {
-            sheets[0].nodes.iter_mut().for_each(|node| node.covered = true);
-        }
-        sheets.extend(charts.iter().map(|chart| Paving::blank(chart.clone(), chart.window(window), modes)));
+        let replaced = charts.iter().any(Chart::is_whole);
+        let half = Budget { boxes: budget.boxes.map(|boxes| boxes / 2), ..*budget };
+        let first = if replaced { half } else { budget.start(window) };
+        let mut poses = Paving::new(robot, window, modes, &first, control);
+        poses.nodes.iter_mut().for_each(|node| node.covered = replaced);
+        let blank = charts.iter().map(|chart| Paving::blank(chart.clone(), chart.window(window), modes));
+        let sheets = std::iter::once(poses).chain(blank).collect();
         Self { scale: Scale::of(robot, window, modes), robot, charts, sheets }
     }
 
@@ -83,21 +87,20 @@ impl<'a> Atlas<'a> {
     }
 
     /// Remembers that a box, and all that it was split into, has no summit of some classes.
-    pub(super) fn remember(&mut self, (sheet, node): Leaf, classes: ClassSet) {
-        let paving = &mut self.sheets[sheet];
-        let mut stack = vec![node];
-        while let Some(at) = stack.pop() {
-            paving.nodes[at as usize].summitless |= classes;
-            stack.extend(paving.children(at));
-        }
+    pub(super) fn remember(&mut self, leaf: Leaf, classes: ClassSet) {
+        self.note(leaf, |node| node.summitless |= classes);
     }
 
     /// Remembers that charts hold a box of sheet 0, and all that it was split into.
-    pub(super) fn cover(&mut self, (sheet, node): Leaf) {
+    pub(super) fn cover(&mut self, leaf: Leaf) {
+        self.note(leaf, |node| node.covered = true);
+    }
+
+    fn note(&mut self, (sheet, node): Leaf, fact: impl Fn(&mut Node)) {
         let paving = &mut self.sheets[sheet];
         let mut stack = vec![node];
         while let Some(at) = stack.pop() {
-            paving.nodes[at as usize].covered = true;
+            fact(&mut paving.nodes[at as usize]);
             stack.extend(paving.children(at));
         }
     }
@@ -275,11 +278,8 @@ fn within_a_chart<const D: usize, const N: usize>(
     paving: &Paving,
     node: u32,
 ) -> bool {
-    let (lo, hi) = paving.bounds(node);
-    let mut cell: [Interval; N] = std::array::from_fn(|k| Interval::point(paving.window.ranges[k].0));
-    for (a, &k) in paving.axes.iter().enumerate() {
-        cell[k] = Interval::new(lo[a], hi[a]);
-    }
+    let extent = paving.extent(node);
+    let cell: [Interval; N] = std::array::from_fn(|k| extent[k]);
     charts.iter().any(|chart| {
         let mut open = vec![(cell, HALVINGS)];
         while let Some((cell, halvings)) = open.pop() {

@@ -4,14 +4,12 @@ use super::ascent::Class;
 use super::atlas::{Atlas, Leaf};
 use super::count::Counted;
 use super::result::{DetSign, Doubt, DoubtKind};
-use super::seams::image;
+use super::seams::poses;
 use crate::kinematics::chart::Chart;
 use crate::kinematics::for_platform;
 use crate::kinematics::limits::margin;
 use crate::kinematics::modal::ModalRows;
 use crate::num::{Interval, Scalar};
-use crate::paving::Paving;
-use std::ops::Add;
 
 /// What keeps the bounds of a class apart.
 pub(super) fn doubts(atlas: &Atlas<'_>, class: Class, counted: &Counted) -> Vec<Doubt> {
@@ -29,45 +27,34 @@ pub(super) fn doubts(atlas: &Atlas<'_>, class: Class, counted: &Counted) -> Vec<
 fn doubt(atlas: &Atlas<'_>, class: Class, kind: DoubtKind, boxes: &[Leaf]) -> Option<Doubt> {
     let &(sheet, node) = boxes.iter().min_by_key(|&&leaf| (atlas.depth_of(leaf), leaf))?;
     let paving = &atlas.sheets[sheet];
-    let place = coordinates(atlas, (sheet, node));
-    let undecided = for_platform!(atlas.robot.platform, undecided(atlas, class, sheet, &place));
+    let extent = paving.extent(node);
+    let undecided = for_platform!(atlas.robot.platform, undecided(atlas, class, sheet, &extent));
+    let (place, fold) = match &paving.chart {
+        Chart::Pose => (extent, None),
+        Chart::Fold(fold) => (extent, Some(fold.leg + 1)),
+        Chart::Chain(_) => (poses_within(atlas, (sheet, node)), None),
+    };
     let in_poses = boxes.iter().filter(|leaf| leaf.0 == 0);
     Some(Doubt {
         mode: class.mode,
         det_a: if class.sign > 0 { DetSign::Positive } else { DetSign::Negative },
         kind,
         boxes: boxes.len(),
-        measure: in_poses.map(|&leaf| atlas.sheets[0].measure(atlas.depth_of(leaf))).fold(0.0, f64::add),
-        fold: match &paving.chart {
-            Chart::Pose | Chart::Chain(_) => None,
-            Chart::Fold(fold) => Some(fold.leg + 1),
-        },
+        // The sum of none is −0.
+        measure: 0.0 + in_poses.map(|&leaf| atlas.sheets[0].measure(atlas.depth_of(leaf))).sum::<f64>(),
+        place: place.into_iter().map(|range| (range.lo, range.hi)).collect(),
+        fold,
         undecided,
-        place: match &paving.chart {
-            Chart::Chain(_) => poses(atlas, paving, &place),
-            Chart::Pose | Chart::Fold(_) => place.into_iter().map(|i| (i.lo, i.hi)).collect(),
-        },
     })
 }
 
-/// The poses of a box of a chart that holds all; a coordinate that does not stay within its range there has all of it.
-fn poses(atlas: &Atlas<'_>, paving: &Paving, place: &[Interval]) -> Vec<(f64, f64)> {
-    let ranges = &atlas.sheets[0].window.ranges;
-    let within = |(pose, range): (Interval, &(f64, f64))| {
-        if range.0 <= pose.lo && pose.hi <= range.1 { (pose.lo, pose.hi) } else { *range }
+/// The poses of a box; a coordinate that does not stay within its range there has all of it.
+fn poses_within(atlas: &Atlas<'_>, leaf: Leaf) -> Vec<Interval> {
+    let within = |(pose, &(lo, hi)): (Interval, &(f64, f64))| {
+        if lo <= pose.lo && pose.hi <= hi { pose } else { Interval::new(lo, hi) }
     };
-    image(atlas.robot, paving, place).into_iter().zip(ranges).map(within).collect()
-}
-
-/// The ranges of all coordinates over a box.
-fn coordinates(atlas: &Atlas<'_>, (sheet, node): Leaf) -> Vec<Interval> {
-    let paving = &atlas.sheets[sheet];
-    let (lo, hi) = paving.bounds(node);
-    let mut ranges: Vec<Interval> = paving.window.ranges.iter().map(|r| Interval::point(r.0)).collect();
-    for (a, &k) in paving.axes.iter().enumerate() {
-        ranges[k] = Interval::new(lo[a], hi[a]);
-    }
-    ranges
+    let ranges = &atlas.sheets[0].window.ranges;
+    poses(atlas.robot, &atlas.sheets, leaf).into_iter().zip(ranges).map(within).collect()
 }
 
 /// Names of the functions that may vanish in a box.

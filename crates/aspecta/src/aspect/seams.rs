@@ -27,8 +27,8 @@ pub(super) fn outer(
     }
 }
 
-/// Joins inside boxes of sheet 0 and of another that surely share a configuration — the centre of the latter has a pose that lies in the
-/// former — if they are `apart` as yet: `join` them.
+/// Pairs (inside box of sheet 0, inside box of another sheet) that share a configuration, the centre of the latter having a pose that seems to lie in
+/// the former; the third argument of `join` proves that it does.
 pub(super) fn inner(
     robot: &Robot,
     sheets: &[Paving],
@@ -56,14 +56,11 @@ pub(super) fn inner(
 fn outer_faces(robot: &Robot, sheet: &Paving, at: u32) -> Vec<Vec<Interval>> {
     let node = &sheet.nodes[at as usize];
     let last = (1u32 << node.depth) - 1;
-    let (lo, hi) = sheet.bounds(at);
-    let mut coordinates: Vec<Interval> = sheet.window.ranges.iter().map(|r| Interval::point(r.0)).collect();
-    for (a, &k) in sheet.axes.iter().enumerate() {
-        coordinates[k] = Interval::new(lo[a], hi[a]);
-    }
+    let coordinates = sheet.extent(at);
     let mut faces = Vec::new();
     for (a, &k) in sheet.axes.iter().enumerate().filter(|(_, k)| (1..robot.platform.space()).contains(*k)) {
-        for (is_outer, end) in [(node.corner[a] == 0, lo[a]), (node.corner[a] == last, hi[a])] {
+        let Interval { lo, hi } = coordinates[k];
+        for (is_outer, end) in [(node.corner[a] == 0, lo), (node.corner[a] == last, hi)] {
             if is_outer {
                 let mut face = coordinates.clone();
                 face[k] = Interval::point(end);
@@ -81,17 +78,11 @@ pub(super) fn centre(robot: &Robot, sheets: &[Paving], (s, at): Leaf) -> Vec<f64
 
 /// Poses that hold the configurations of a box.
 pub(super) fn poses(robot: &Robot, sheets: &[Paving], (s, at): Leaf) -> Vec<Interval> {
-    let sheet = &sheets[s];
-    let (lo, hi) = sheet.bounds(at);
-    let mut y: Vec<Interval> = sheet.window.ranges.iter().map(|r| Interval::point(r.0)).collect();
-    for (a, &k) in sheet.axes.iter().enumerate() {
-        y[k] = Interval::new(lo[a], hi[a]);
-    }
-    image(robot, sheet, &y)
+    image(robot, &sheets[s], &sheets[s].extent(at))
 }
 
 /// Poses that hold the configurations with the given coordinates.
-pub(super) fn image(robot: &Robot, sheet: &Paving, y: &[Interval]) -> Vec<Interval> {
+fn image(robot: &Robot, sheet: &Paving, y: &[Interval]) -> Vec<Interval> {
     for_platform!(robot.platform, image_in(robot, &sheet.chart, y))
 }
 

@@ -35,7 +35,7 @@ impl<'a> Search<'a> {
             boxes: budget.boxes.unwrap_or(MAX_BOXES).min(MAX_BOXES),
             late: &late,
         };
-        let atlas = Atlas::new(robot, window, modes, &budget.start(window), control);
+        let atlas = Atlas::new(robot, window, modes, budget, control);
         let paved = atlas.sheets[0].stop;
         let mut search = Self { atlas, counted: Vec::new(), stop: paved };
         let leaves = search.atlas.undecided_leaves();

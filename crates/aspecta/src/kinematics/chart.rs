@@ -14,7 +14,7 @@ pub use chain::Chain;
 
 use super::leg::{Closure, sum_of_squares};
 use super::modal::{LegClosure, closures};
-use super::placement::{Placement, out_of_frame, roll_pitch_yaw};
+use super::placement::{Placement, out_of_frame};
 use crate::num::{Interval, Scalar, each};
 use crate::robot::{Actuator, Platform, Robot, Window};
 use arrayvec::ArrayVec;
@@ -117,25 +117,21 @@ impl Chart {
 
     /// Poses that hold all configurations whose coordinates are in `y`.
     pub fn pose<const D: usize, const N: usize>(&self, robot: &Robot, y: &[Interval; N]) -> [Interval; N] {
-        let (placement, _) = self.at::<Interval, D, N>(robot, y, |k| y[k].sin_cos());
+        let placement = || self.at::<Interval, D, N>(robot, y, |k| y[k].sin_cos()).0;
         match self {
             Self::Pose => *y,
-            // The chart's coordinates stand for the translations.
-            Self::Fold(_) => std::array::from_fn(|k| if k < D { placement.origin()[k] } else { y[k] }),
-            Self::Chain(_) => chain::pose(&placement),
+            Self::Fold(_) => moved_to(&placement(), y),
+            Self::Chain(_) => chain::pose(&placement()),
         }
     }
 
     /// The pose of a point of the chart, numerically.
     pub fn pose_at<const D: usize, const N: usize>(&self, robot: &Robot, y: &[f64; N]) -> [f64; N] {
-        let (placement, _) = self.at::<f64, D, N>(robot, y, |k| y[k].sin_cos());
-        match (self, placement.rotation()) {
-            (Self::Chain(_), Some(r)) => {
-                let angles = roll_pitch_yaw(r);
-                each!(|k| angles[k])
-            }
-            (Self::Fold(_), _) => each!(|k| if k < D { placement.origin()[k] } else { y[k] }),
-            _ => *y,
+        let placement = || self.at::<f64, D, N>(robot, y, |k| y[k].sin_cos()).0;
+        match self {
+            Self::Pose => *y,
+            Self::Fold(_) => moved_to(&placement(), y),
+            Self::Chain(_) => chain::pose_at(&placement()),
         }
     }
 
@@ -157,6 +153,11 @@ impl Chart {
         }
         window
     }
+}
+
+/// The pose of a fold: its coordinates stand for the translations.
+fn moved_to<T: Scalar, const D: usize, const N: usize>(placement: &Placement<T, D>, y: &[T; N]) -> [T; N] {
+    each!(|k| if k < D { placement.origin()[k] } else { y[k] })
 }
 
 impl Fold {

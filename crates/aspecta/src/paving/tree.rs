@@ -125,6 +125,16 @@ impl Paving {
         (lo, hi)
     }
 
+    /// The ranges of all coordinates over a box; those that do not vary have their fixed value.
+    pub fn extent(&self, node: u32) -> Vec<Interval> {
+        let (lo, hi) = self.bounds(node);
+        let mut ranges: Vec<Interval> = self.window.ranges.iter().map(|r| Interval::point(r.0)).collect();
+        for (a, &k) in self.axes.iter().enumerate() {
+            ranges[k] = Interval::new(lo[a], hi[a]);
+        }
+        ranges
+    }
+
     /// The pose at the centre of a box; coordinates that do not vary have their fixed value.
     pub fn centre(&self, node: u32) -> Vec<f64> {
         let (lo, hi) = self.bounds(node);

@@ -12,25 +12,19 @@ use crate::robot::{Actuator, Platform, Robot, Window};
 
 /// The window of a chart, given that of the poses.
 pub(super) fn window_of(chart: &Chart, poses: &Window) -> Window {
+    let turn = (-Interval::PI.hi, Interval::PI.hi);
+    // The coordinates that take the place of those of the pose, and how many of them are angles.
+    let (ranges, angles) = match chart {
+        Chart::Pose => ([None; 3], 0),
+        Chart::Fold(fold) => ([Some(turn), Some((-fold.half_width, fold.half_width)), fold.axial], 1),
+        Chart::Chain(_) => ([Some(turn); 3], 3),
+    };
     let mut window = poses.clone();
-    if let Chart::Chain(_) = chart {
-        for k in 0..3 {
-            window.ranges[k] = (-Interval::PI.hi, Interval::PI.hi);
-            (window.glued[k], window.angles[k]) = (true, true);
-        }
-    }
-    if let Chart::Fold(fold) = chart {
-        let ranges = [
-            Some((-Interval::PI.hi, Interval::PI.hi)),
-            Some((-fold.half_width, fold.half_width)),
-            fold.axial,
-        ];
-        for (k, range) in ranges.into_iter().enumerate().filter_map(|(k, range)| Some((k, range?))) {
-            window.ranges[k] = range;
-            window.glued[k] = k == 0;
-            window.angles[k] = k == 0;
-            window.cut[k] = (false, false);
-        }
+    for (k, range) in ranges.into_iter().enumerate().filter_map(|(k, range)| Some((k, range?))) {
+        window.ranges[k] = range;
+        window.glued[k] = k < angles;
+        window.angles[k] = k < angles;
+        window.cut[k] = (false, false);
     }
     window
 }
@@ -93,11 +87,11 @@ pub(super) fn are_disjoint(setting: &Setting<'_>, chart: &Chart, other_chart: &C
 
 /// The poses of a box of a chart.
 pub(super) fn poses(setting: &Setting<'_>, y: &Coordinates) -> Coordinates {
+    if let Chart::Chain(_) = setting.chart {
+        return Body::<Interval, 3>::new(setting.robot, setting.chart, y).roll_pitch_yaw();
+    }
     let mut pose = *y;
     match setting.robot.platform.space() {
-        _ if matches!(setting.chart, Chart::Chain(_)) => {
-            return Body::<Interval, 3>::new(setting.robot, setting.chart, y).roll_pitch_yaw();
-        }
         2 => pose[..2].copy_from_slice(Body::<Interval, 2>::new(setting.robot, setting.chart, y).origin()),
         _ => pose.copy_from_slice(Body::<Interval, 3>::new(setting.robot, setting.chart, y).origin()),
     }

@@ -3,7 +3,7 @@
 use super::Folded;
 use crate::kinematics::leg::Closure;
 use crate::kinematics::modal::{LegClosure, closures};
-use crate::kinematics::placement::{Placement, out_of_frame};
+use crate::kinematics::placement::{Placement, out_of_frame, roll_pitch_yaw};
 use crate::num::{Interval, Scalar, each};
 use crate::robot::{Actuator, Platform, Robot, Window};
 use serde::{Deserialize, Serialize};
@@ -37,7 +37,8 @@ impl Chain {
     /// The chart for a platform that turns about a point, if `window` holds all its orientations.
     pub(super) fn of(robot: &Robot, window: &Window) -> Option<Self> {
         let whole = window.cut.iter().all(|&cut| cut == (false, false)) && window.held().next().is_none();
-        (robot.platform == Platform::TurningBody && whole).then_some(Self { leg: 0 })
+        let spherical = matches!(robot.legs.first()?.actuator, Actuator::Spherical { .. });
+        (robot.platform == Platform::TurningBody && spherical && whole).then_some(Self { leg: 0 })
     }
 
     pub(super) fn window() -> Window {
@@ -102,6 +103,12 @@ fn axes_about(c: &[Interval; 3]) -> [[Interval; 3]; 3] {
         c[i] * first[j] - c[j] * first[i]
     });
     [first, second, *c]
+}
+
+/// Roll, pitch and yaw of a placement, numerically.
+pub(super) fn pose_at<const D: usize, const N: usize>(placement: &Placement<f64, D>) -> [f64; N] {
+    let angles = placement.rotation().map_or([0.0; 3], roll_pitch_yaw);
+    each!(|k| angles[k])
 }
 
 /// Roll, pitch and yaw of a placement; anything where they are not small intervals.
