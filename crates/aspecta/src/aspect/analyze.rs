@@ -272,13 +272,15 @@ impl Found {
             group.pieces.iter().for_each(|&piece| label_of_piece[piece as usize] = k as u32 + 1);
         }
         let paving = &atlas.sheets[0];
+        let mut label = vec![0; paving.nodes.len()];
+        for (&(sheet, node), piece) in components.boxes.iter().zip(&components.piece_of) {
+            if let (0, Some(piece)) = (sheet, piece) {
+                label[node as usize] = label_of_piece[*piece as usize];
+            }
+        }
         let mut labels = Vec::new();
-        paving.boxes_of(&|node: &Node| node.of_classes(class.bit), &mut |node| {
-            labels.push((
-                node,
-                components.piece_at((0, node)).map_or(0, |piece| label_of_piece[piece as usize]),
-            ));
-        });
+        let sight = |node: &Node| node.of_classes(class.bit);
+        paving.boxes_of(&sight, &mut |node| labels.push((node, label[node as usize])));
         labels.sort_unstable();
         let undecided =
             labels.iter().filter(|l| l.1 == 0).map(|l| paving.measure(paving.depth_of(l.0))).sum();

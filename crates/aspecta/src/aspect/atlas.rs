@@ -5,10 +5,9 @@ use super::summit::summitless;
 use crate::kinematics::WorkingMode;
 use crate::kinematics::chart::{Chart, charts};
 use crate::kinematics::for_platform;
-use crate::num::{Interval, LANES, Scalar};
+use crate::num::{Interval, Scalar};
 use crate::paving::{Budget, ClassSet, Control, Node, Paving, Progress, for_paving};
 use crate::robot::{Robot, Window};
-use rayon::prelude::*;
 
 /// A box: sheet and node.
 pub(super) type Leaf = (usize, u32);
@@ -247,12 +246,8 @@ impl<'a> Atlas<'a> {
     /// Of the classes asked of each box of a sheet, those that surely have no summit in it.
     pub(super) fn summitless(&self, sheet: usize, asked: &[(u32, ClassSet)]) -> Vec<ClassSet> {
         let paving = &self.sheets[sheet];
-        let eight = |boxes: &[(u32, ClassSet)]| {
-            let (robot, scale) = (self.robot, &self.scale);
-            let proved = for_paving!(robot, paving.axes.len(), summitless(robot, paving, scale, boxes));
-            proved[..boxes.len()].to_vec()
-        };
-        asked.par_chunks(LANES).flat_map_iter(eight).collect()
+        let (robot, scale) = (self.robot, &self.scale);
+        for_paving!(robot, paving.axes.len(), summitless(robot, paving, scale, asked))
     }
 
     /// Splits leaves; returns their children.

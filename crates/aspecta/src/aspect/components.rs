@@ -68,7 +68,7 @@ impl Components {
         Self::with_links(robot, sheets, sight, &mut |_, _| {})
     }
 
-    /// [`Components::new`], and a visit of every pair of boxes (by index) that G⁺ joins.
+    /// [`Components::new`], and a visit of every pair of boxes (by index) that G⁺ joins and G⁻ need not.
     pub(super) fn with_links(
         robot: &Robot,
         sheets: &[Paving],
@@ -92,25 +92,29 @@ impl Components {
         let is_inside = |leaf: Leaf| sight(node(leaf)) == Mark::Inside;
         let mut all = UnionFind::new(boxes.len());
         let mut inner = UnionFind::new(boxes.len());
-        let mut may_touch = |a: Leaf, b: Leaf| {
+        let mut may_touch = |a: Leaf, b: Leaf, surely: bool| {
             let (i, j) = (index.of(a), index.of(b));
             if !is_covered(node(a)) && !is_covered(node(b)) {
                 all.union(i, j);
-                visit(i, j);
+                if !surely {
+                    visit(i, j);
+                }
             }
         };
         for (s, paving) in sheets.iter().enumerate() {
             paving.touching(&kept, &mut |a, b| {
-                may_touch((s, a), (s, b));
-                if is_inside((s, a)) && is_inside((s, b)) {
-                    inner.union(index.of((s, a)), index.of((s, b)));
+                let (a, b) = ((s, a), (s, b));
+                let surely = is_inside(a) && is_inside(b);
+                may_touch(a, b, surely);
+                if surely {
+                    inner.union(index.of(a), index.of(b));
                 }
             });
         }
         for (a, b) in folds(robot, &sheets[0], &kept) {
-            may_touch((0, a), (0, b));
+            may_touch((0, a), (0, b), false);
         }
-        seams::outer(robot, sheets, &kept, &mut may_touch);
+        seams::outer(robot, sheets, &kept, &mut |a, b| may_touch(a, b, false));
         let mut met = Vec::new();
         seams::inner(robot, sheets, &kept, &mut |a, b, surely| {
             let (i, j) = (index.of(a), index.of(b));

@@ -3,7 +3,7 @@
 use super::ascent::{Class, Path, merge};
 use super::atlas::{Atlas, Leaf};
 use super::components::{Components, UnionFind};
-use crate::paving::{ClassSet, Control, Mark, Node};
+use crate::paving::{ClassSet, Control, Node};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 /// The components of a class and what is proved of their number.
@@ -68,7 +68,9 @@ const SEARCHED: usize = 1 << 14;
 /// Counts a class.
 pub(super) fn count(atlas: &Atlas<'_>, class: Class, control: &Control<'_>) -> Counted {
     let sight = |node: &Node| node.of_classes(class.bit);
-    let components = Components::new(atlas.robot, &atlas.sheets, &sight);
+    let mut links = Vec::new();
+    let components =
+        Components::with_links(atlas.robot, &atlas.sheets, &sight, &mut |i, j| links.push((i, j)));
     let mut anchored = BTreeSet::new();
     for (i, &leaf) in components.boxes.iter().enumerate() {
         if let (Some(component), Some(_)) = (components.component_of[i], components.piece_of[i])
@@ -96,7 +98,7 @@ pub(super) fn count(atlas: &Atlas<'_>, class: Class, control: &Control<'_>) -> C
     let closed = components.boxes.iter().all(|&leaf| atlas.open(leaf) & class.bit == 0);
     let mut between = if found.iter().any(|group| group.summits > 1) {
         let label = |piece: u32| fertile[piece as usize].then_some(piece);
-        between(atlas, &sight, &found, &label, &mut joined)
+        between(&components, links, &found, &label, &mut joined)
     } else {
         Between::default()
     };
@@ -175,18 +177,15 @@ fn loose(atlas: &Atlas<'_>, components: &Components, found: &[Group]) -> (Vec<Le
     (covered.collect(), unsettled.collect())
 }
 
-/// The undecided boxes between unjoined pieces. G⁺ is flooded from all of them at once.
+/// The undecided boxes between unjoined pieces. G⁺ is flooded from all of them at once, along its `links`; a piece needs none.
 fn between(
-    atlas: &Atlas<'_>,
-    sight: &impl Fn(&Node) -> Mark,
+    components: &Components,
+    mut links: Vec<(u32, u32)>,
     found: &[Group],
     label: &impl Fn(u32) -> Option<u32>,
     joined: &mut UnionFind,
 ) -> Between {
     let torn: BTreeSet<u32> = found.iter().filter(|g| g.summits > 1).map(|g| g.component).collect();
-    let mut links: Vec<(u32, u32)> = Vec::new();
-    let components =
-        Components::with_links(atlas.robot, &atlas.sheets, sight, &mut |i, j| links.push((i, j)));
     let in_torn = |i: u32| components.component_of[i as usize].is_some_and(|c| torn.contains(&c));
     links.retain(|&(i, _)| in_torn(i));
     // The boxes of a piece are one vertex.

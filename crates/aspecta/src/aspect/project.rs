@@ -37,19 +37,30 @@ pub(super) fn hull(mut ranges: Vec<Interval>, circular: bool) -> (f64, f64) {
 /// Bounds, per pose coordinate, of the poses of the given boxes of all sheets.
 pub(super) fn w_bounds(robot: &Robot, sheets: &[Paving], boxes: &[Leaf]) -> Vec<(f64, f64)> {
     let window = &sheets[0].window;
-    let poses: Vec<Vec<Interval>> = boxes.iter().map(|&leaf| poses(robot, sheets, leaf)).collect();
-    let bound = |k: usize| {
+    let mut all: Vec<Vec<Interval>> = vec![Vec::with_capacity(boxes.len()); window.axes().len()];
+    for &(sheet, node) in boxes {
+        if sheet == 0 {
+            let (lo, hi) = sheets[0].bounds(node);
+            all.iter_mut().enumerate().for_each(|(a, all)| all.push(Interval::new(lo[a], hi[a])));
+        } else {
+            let pose = poses(robot, sheets, (sheet, node));
+            all.iter_mut().zip(&sheets[0].axes).for_each(|(all, &k)| all.push(pose[k]));
+        }
+    }
+    let mut bounds = window.ranges.clone();
+    for (mut all, &k) in all.into_iter().zip(&sheets[0].axes) {
         let (lo, hi) = window.ranges[k];
-        let within = |pose: &Vec<Interval>| match pose[k] {
-            // Near a pole of the pitch roll and yaw may be anything.
-            x if x.width() >= hi - lo => Interval::new(lo, hi),
-            x if window.glued[k] => x,
-            x => Interval::new(x.lo.max(lo), x.hi.min(hi)),
-        };
-        let all = poses.iter().map(within);
-        if lo < hi { hull(all.collect(), window.glued[k]) } else { (lo, hi) }
-    };
-    (0..window.ranges.len()).map(bound).collect()
+        for x in &mut all {
+            match window.glued[k] {
+                // Near a pole of the pitch roll and yaw may be anything.
+                _ if x.width() >= hi - lo => *x = Interval::new(lo, hi),
+                true => {}
+                false => *x = Interval::new(x.lo.max(lo), x.hi.min(hi)),
+            }
+        }
+        bounds[k] = hull(all, window.glued[k]);
+    }
+    bounds
 }
 
 /// A box by its grid coordinates and depth.

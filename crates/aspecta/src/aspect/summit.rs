@@ -25,6 +25,7 @@
 
 mod climb;
 mod frame;
+mod leg;
 mod view;
 
 use super::saddle::no_local_maximum;
@@ -36,46 +37,180 @@ use crate::robot::Robot;
 use arrayvec::ArrayVec;
 use climb::can_climb;
 use frame::Frame;
-use view::{Part, View};
+use leg::LegPart;
+use rayon::prelude::*;
+use view::View;
 
 /// More constraints than any robot file can bring to bear on one box at once.
 const MOST: usize = 64;
 
-/// Of the classes `asked` of up to eight boxes, those that surely have no summit there.
+/// Of the classes asked of each box, those that surely have no summit there.
 pub(super) fn summitless<const D: usize, const N: usize, const M: usize>(
     robot: &Robot,
     paving: &Paving,
     scale: &Scale,
-    boxes: &[(u32, ClassSet)],
-) -> [ClassSet; LANES] {
-    let view = View::<D, N, M>::new(robot, paving, &std::array::from_fn(|l| boxes[l.min(boxes.len() - 1)].0));
-    let mut asked = [0; LANES];
-    (0..boxes.len()).filter(|&l| view.usable[l]).for_each(|l| asked[l] = boxes[l].1);
-    let mut proved = view.look(robot, scale, &view.heights, &asked);
-    // Near a serial singularity h varies like the root of the box's width: cut its range and look at each part.
-    let left: [ClassSet; LANES] = std::array::from_fn(|l| asked[l] & !proved[l]);
-    let singular = view.singular(&left);
-    if singular.contains(&true) {
-        let mut held = left;
-        let depth = boxes.iter().map(|b| paving.depth_of(b.0)).max().unwrap_or(0);
-        for heights in parts(&view.heights, &singular, depth) {
-            let found = view.look(robot, scale, &heights, &held);
+    asked: &[(u32, ClassSet)],
+) -> Vec<ClassSet> {
+    let found = by_eights::<Found, D, N, M>(robot, paving, scale, asked, |boxes| boxes.look());
+    let mut proved: Vec<ClassSet> = found.iter().map(|found| found.proved).collect();
+    // Those left over are looked at once more, side by side with their like: what takes one of them many parts takes as many in all eight.
+    let depth = |i: usize| paving.depth_of(asked[i].0);
+    let mut left: Vec<usize> = (0..asked.len())
+        .filter(|&i| asked[i].1 & !proved[i] != 0 && (found[i].singular != 0 || depth(i) >= DEEP))
+        .collect();
+    left.sort_by_key(|&i| (found[i].singular, depth(i)));
+    let again: Vec<(u32, ClassSet)> = left.iter().map(|&i| (asked[i].0, asked[i].1 & !proved[i])).collect();
+    let more = by_eights::<ClassSet, D, N, M>(robot, paving, scale, &again, |boxes| boxes.look_closer());
+    left.iter().zip(more).for_each(|(&i, more)| proved[i] |= more);
+    proved
+}
+
+fn by_eights<T: Send, const D: usize, const N: usize, const M: usize>(
+    robot: &Robot,
+    paving: &Paving,
+    scale: &Scale,
+    asked: &[(u32, ClassSet)],
+    look: impl Fn(&Eight<'_, D, N, M>) -> Vec<T> + Sync,
+) -> Vec<T> {
+    let of_eight = |boxes: &[(u32, ClassSet)]| {
+        let view = View::new(robot, paving, scale, &eight(boxes));
+        look(&Eight::new(&view, boxes))
+    };
+    asked.par_chunks(LANES).flat_map_iter(of_eight).collect()
+}
+
+/// What a first look at a box finds.
+struct Found {
+    /// The classes without a summit in it.
+    proved: ClassSet,
+    /// The legs, as bits, that may be singular in it.
+    singular: u8,
+}
+
+/// Up to eight boxes, and what is asked of them.
+struct Eight<'a, const D: usize, const N: usize, const M: usize> {
+    view: &'a View<'a, D, N, M>,
+    boxes: &'a [(u32, ClassSet)],
+    asked: [ClassSet; LANES],
+}
+
+/// The boxes, the last of them more often if they are less than eight.
+fn eight(boxes: &[(u32, ClassSet)]) -> [u32; LANES] {
+    std::array::from_fn(|l| boxes[l.min(boxes.len() - 1)].0)
+}
+
+impl<'a, const D: usize, const N: usize, const M: usize> Eight<'a, D, N, M> {
+    fn new(view: &'a View<'a, D, N, M>, boxes: &'a [(u32, ClassSet)]) -> Self {
+        let asked = std::array::from_fn(|l| if l < boxes.len() && view.usable[l] { boxes[l].1 } else { 0 });
+        Self { view, boxes, asked }
+    }
+
+    /// With the whole range of h.
+    fn look(&self) -> Vec<Found> {
+        let proved = self.over(&self.whole(), &self.asked);
+        let singular =
+            |l: usize| (0..N).filter(|&j| self.view.may_be_singular(j, l)).fold(0, |set, j| set | 1 << j);
+        (0..self.boxes.len()).map(|l| Found { proved: proved[l], singular: singular(l) }).collect()
+    }
+
+    /// With the range of h cut into parts, and then to second order.
+    fn look_closer(&self) -> Vec<ClassSet> {
+        let mut proved = self.by_parts();
+        for (l, &(node, _)) in
+            self.boxes.iter().enumerate().filter(|(_, b)| self.view.paving.depth_of(b.0) >= DEEP)
+        {
+            let left = self.asked[l] & !proved[l];
+            for (m, &mode) in
+                self.view.paving.modes.iter().enumerate().filter(|(m, _)| left >> (2 * m) & 3 != 0)
+            {
+                proved[l] |= left & self.saddles(node, l, (m, mode));
+            }
+        }
+        proved.into_iter().take(self.boxes.len()).collect()
+    }
+
+    /// Near a serial singularity h varies like the root of the box's width: its range is cut, and each part looked at.
+    fn by_parts(&self) -> [ClassSet; LANES] {
+        let singular = std::array::from_fn(|j| {
+            (0..LANES).any(|l| self.asked[l] != 0 && self.view.may_be_singular(j, l))
+        });
+        if !singular.contains(&true) {
+            return [0; LANES];
+        }
+        let depth = self.boxes.iter().map(|b| self.view.paving.depth_of(b.0)).max().unwrap_or(0);
+        let mut ways = self.whole();
+        let mut held = self.asked;
+        for heights in parts(&self.view.heights, &singular, depth) {
+            for j in (0..N).filter(|&j| singular[j]) {
+                for way in ways.iter_mut().filter(|way| way[j].height != heights[j]) {
+                    way[j] = self.view.leg(j, heights[j], way[j].singular);
+                }
+            }
+            let found = self.over(&ways, &held);
             (0..LANES).for_each(|l| held[l] &= found[l]);
             if held == [0; LANES] {
                 break;
             }
         }
-        (0..LANES).for_each(|l| proved[l] |= held[l]);
+        held
     }
-    for (l, &(node, _)) in
-        boxes.iter().enumerate().filter(|(_, b)| u32::from(paving.nodes[b.0 as usize].depth) >= DEEP)
-    {
-        let left = asked[l] & !proved[l];
-        for (m, &mode) in paving.modes.iter().enumerate().filter(|(m, _)| left >> (2 * m) & 3 != 0) {
-            proved[l] |= left & view.saddles::<D>(robot, scale, node, l, (m, mode));
+
+    /// The robot with the whole range of h, for each choice of singular legs.
+    fn whole(&self) -> ArrayVec<[LegPart<N, M>; N], 2> {
+        let leg = |singular: &[Mask; N], j: usize| self.view.leg(j, self.view.heights[j], singular[j]);
+        self.view.choices().iter().map(|singular| std::array::from_fn(|j| leg(singular, j))).collect()
+    }
+
+    /// Of the classes asked, those without a summit, by any of some choices of singular legs.
+    fn over(&self, ways: &[[LegPart<N, M>; N]], asked: &[ClassSet; LANES]) -> [ClassSet; LANES] {
+        let mut proved = [0; LANES];
+        for legs in ways {
+            let left: [ClassSet; LANES] = std::array::from_fn(|l| asked[l] & !proved[l]);
+            let found = self.by(legs, &left);
+            (0..LANES).for_each(|l| proved[l] |= found[l]);
         }
+        proved
     }
-    proved
+
+    /// The same by one.
+    fn by(&self, legs: &[LegPart<N, M>; N], asked: &[ClassSet; LANES]) -> [ClassSet; LANES] {
+        let view = &self.view;
+        let frame = |l: usize| (asked[l] != 0).then(|| Frame::new(view, legs, l)).flatten();
+        let frames: [Option<Frame<N, M>>; LANES] = std::array::from_fn(frame);
+        let any = asked.iter().fold(0, |any, classes| any | classes);
+        let mut proved = [0; LANES];
+        for (m, &mode) in view.paving.modes.iter().enumerate().filter(|(m, _)| any >> (2 * m) & 3 != 0) {
+            let det = view.determinant(legs, mode);
+            for (l, frame) in frames.iter().enumerate().filter(|(l, _)| asked[*l] >> (2 * m) & 3 != 0) {
+                let Some(frame) = frame else { continue };
+                let common = view.constraints(legs, frame, mode, l);
+                let det = det.growth(frame, mode, view.scale, l);
+                for (sign, bit) in [(1.0, 1 << (2 * m)), (-1.0, 2 << (2 * m))] {
+                    if asked[l] & bit != 0 && can_climb(&common, &det.signed(sign)) {
+                        proved[l] |= bit;
+                    }
+                }
+            }
+        }
+        proved
+    }
+
+    /// The classes of a mode without a summit in one box by the second-order test ([`no_local_maximum`]).
+    fn saddles(&self, node: u32, lane: usize, (m, mode): (usize, WorkingMode)) -> ClassSet {
+        let view = &self.view;
+        let legs = std::array::from_fn(|j| view.leg(j, view.heights[j], [false; LANES]));
+        let Some(frame) = Frame::new(view, &legs, lane) else { return 0 };
+        let least = view
+            .constraints(&legs, &frame, mode, lane)
+            .iter()
+            .fold(f64::INFINITY, |least, g| least.min(g.value.lo));
+        let det = view.determinant(&legs, mode).growth(&frame, mode, view.scale, lane).value;
+        if least <= 0.0 || det.magnitude() >= least {
+            return 0;
+        }
+        let [plus, minus] = no_local_maximum::<D, N, M>(view.robot, view.paving, node, mode);
+        (ClassSet::from(plus) | ClassSet::from(minus) << 1) << (2 * m)
+    }
 }
 
 /// From this depth on the second-order test is tried: double points of det A = 0 are rare, and it costs more.
@@ -109,91 +244,22 @@ fn parts<const N: usize>(
     })
 }
 
-impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
-    /// The legs that are singular in some box in which something is asked.
-    fn singular(&self, asked: &[ClassSet; LANES]) -> [bool; N] {
-        std::array::from_fn(|j| {
-            self.rooted[j] && (0..LANES).any(|l| asked[l] != 0 && is_singular(self.reach[j].value.lane(l)))
-        })
-    }
-
-    /// Of the classes asked, those without a summit where the h_j are in the given ranges.
-    fn look(
-        &self,
-        robot: &Robot,
-        scale: &Scale,
-        heights: &[Pack; N],
-        asked: &[ClassSet; LANES],
-    ) -> [ClassSet; LANES] {
-        let mut proved = [0; LANES];
-        for singular in self.choices(scale) {
-            let left: [ClassSet; LANES] = std::array::from_fn(|l| asked[l] & !proved[l]);
-            let part = self.part(robot, heights, &singular);
-            let found = self.look_from(robot, scale, &part, &left);
-            (0..LANES).for_each(|l| proved[l] |= found[l]);
-        }
-        proved
-    }
-
-    /// The same with the singular legs chosen.
-    fn look_from(
-        &self,
-        robot: &Robot,
-        scale: &Scale,
-        part: &Part<N, M>,
-        asked: &[ClassSet; LANES],
-    ) -> [ClassSet; LANES] {
-        let frame = |l: usize| (asked[l] != 0).then(|| Frame::new(self, part, l)).flatten();
-        let frames: [Option<Frame<N, M>>; LANES] = std::array::from_fn(frame);
-        let any = asked.iter().fold(0, |any, classes| any | classes);
-        let mut proved = [0; LANES];
-        for (m, &mode) in self.paving.modes.iter().enumerate().filter(|(m, _)| any >> (2 * m) & 3 != 0) {
-            let det = self.determinant(part, mode);
-            for (l, frame) in frames.iter().enumerate().filter(|(l, _)| asked[*l] >> (2 * m) & 3 != 0) {
-                let Some(frame) = frame else { continue };
-                let common = self.constraints(robot, scale, part, frame, mode, l);
-                let det = det.growth(frame, mode, scale, l);
-                for (sign, bit) in [(1.0, 1 << (2 * m)), (-1.0, 2 << (2 * m))] {
-                    if asked[l] & bit != 0 && can_climb(&common, &det.signed(sign)) {
-                        proved[l] |= bit;
-                    }
-                }
-            }
-        }
-        proved
-    }
-
-    /// The classes of a mode without a summit in one box by the second-order test ([`no_local_maximum`]).
-    fn saddles<const SPACE: usize>(
-        &self,
-        robot: &Robot,
-        scale: &Scale,
-        node: u32,
-        lane: usize,
-        (m, mode): (usize, WorkingMode),
-    ) -> ClassSet {
-        let part = self.part(robot, &self.heights, &[[false; LANES]; N]);
-        let Some(frame) = Frame::new(self, &part, lane) else { return 0 };
-        let least = self
-            .constraints(robot, scale, &part, &frame, mode, lane)
-            .iter()
-            .fold(f64::INFINITY, |least, g| least.min(g.value.lo));
-        let det = self.determinant(&part, mode).growth(&frame, mode, scale, lane).value;
-        if least <= 0.0 || det.magnitude() >= least {
-            return 0;
-        }
-        let [plus, minus] = no_local_maximum::<SPACE, N, M>(robot, self.paving, node, mode);
-        (ClassSet::from(plus) | ClassSet::from(minus) << 1) << (2 * m)
+impl<const D: usize, const N: usize, const M: usize> View<'_, D, N, M> {
+    /// Whether leg j may meet a serial singularity in a box, or nearly.
+    fn may_be_singular(&self, j: usize, lane: usize) -> bool {
+        self.rooted[j] && is_singular(self.reach[j].value.lane(lane))
     }
 
     /// The choices of singular legs to try, per leg and box. A choice is valid if it has all legs that can be singular; it is mostly
     /// better if it has all that nearly are, because ∇det A is then nearly parallel to ∇H_j.
-    fn choices(&self, scale: &Scale) -> ArrayVec<[Mask; N], 2> {
+    fn choices(&self) -> ArrayVec<[Mask; N], 2> {
         let reach = |j: usize, l: usize| self.reach[j].value.lane(l);
         let must: [Mask; N] =
             std::array::from_fn(|j| std::array::from_fn(|l| self.rooted[j] && is_singular(reach(j, l))));
         let may: [Mask; N] = std::array::from_fn(|j| {
-            std::array::from_fn(|l| must[j][l] || self.rooted[j] && reach(j, l).hi <= NEARLY * scale.reach[j])
+            std::array::from_fn(|l| {
+                must[j][l] || self.rooted[j] && reach(j, l).hi <= NEARLY * self.scale.reach[j]
+            })
         });
         let mut choices: ArrayVec<_, 2> = [may].into_iter().collect();
         if may != must {

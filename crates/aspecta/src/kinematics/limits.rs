@@ -17,7 +17,24 @@ pub struct LegAt<'a, T, const D: usize> {
     pub crank: Option<(T, T)>,
 }
 
-impl<T: Scalar, const D: usize> LegAt<'_, T, D> {
+impl<'a, T: Scalar, const D: usize> LegAt<'a, T, D> {
+    /// The same in another scalar.
+    pub fn map<U: Scalar>(&self, to: impl Fn(T) -> U) -> LegAt<'a, U, D> {
+        let vector = |v: &[T; D]| each!(|k| to(v[k]));
+        let Closure { reach, weight, fixed, swing } = &self.closure;
+        LegAt {
+            leg: self.leg,
+            span: vector(&self.span),
+            closure: Closure {
+                reach: to(*reach),
+                weight: to(*weight),
+                fixed: vector(fixed),
+                swing: vector(swing),
+            },
+            crank: self.crank.map(|(cos, sin)| (to(cos), to(sin))),
+        }
+    }
+
     fn drive(&self, sh: T) -> Drive<T> {
         match self.crank {
             Some((cos, sin)) => Drive::Angle { cos, sin, norm: T::constant(Interval::point(1.0)) },

@@ -15,7 +15,7 @@ pub type Mask = [bool; LANES];
 ///
 /// Bounds must stay finite: `min` and `max` here are the machine's, which lose a NaN. The paving sees
 /// to that (no division by zero, robot dimensions bounded by the robot file's rules).
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(align(64))]
 pub struct Pack {
     /// Lower bounds.

@@ -1,6 +1,7 @@
 //! Tangent vectors along which everything has bounded derivatives.
 
-use super::view::{Part, View};
+use super::leg::LegPart;
+use super::view::View;
 use crate::num::Interval;
 use arrayvec::ArrayVec;
 
@@ -18,23 +19,23 @@ impl<const N: usize, const M: usize> Frame<N, M> {
     /// `None` if more legs are singular than there are coordinates.
     pub(super) fn new<const D: usize>(
         view: &View<'_, D, N, M>,
-        part: &Part<N, M>,
+        legs: &[LegPart<N, M>; N],
         lane: usize,
     ) -> Option<Self> {
-        let singular = part.singular.map(|lanes| lanes[lane]);
+        let singular: [bool; N] = std::array::from_fn(|j| legs[j].singular[lane]);
         let half = Interval::point(0.5);
-        let legs: ArrayVec<usize, N> = (0..N).filter(|&j| singular[j]).collect();
-        if legs.len() > M {
+        let own_legs: ArrayVec<usize, N> = (0..N).filter(|&j| singular[j]).collect();
+        if own_legs.len() > M {
             return None;
         }
         let gradients: [[Interval; M]; N] = std::array::from_fn(|j| view.reach[j].gradient_in(lane));
-        let normals: ArrayVec<[Interval; M], M> = legs.iter().map(|&j| gradients[j]).collect();
+        let normals: ArrayVec<[Interval; M], M> = own_legs.iter().map(|&j| gradients[j]).collect();
         let (directions, own) = adapted(&normals)?;
-        let heights: [Interval; N] = std::array::from_fn(|j| part.heights[j].lane(lane));
+        let heights: [Interval; N] = std::array::from_fn(|j| legs[j].height.lane(lane));
         let mut vectors = directions;
         let mut climb = [[Interval::point(0.0); N]; M];
         for i in 0..M {
-            let leg = own[i].map(|k| legs[k]);
+            let leg = own[i].map(|k| own_legs[k]);
             if let Some(j) = leg {
                 vectors[i] = directions[i].map(|x| x * heights[j]);
                 climb[i][j] = dot(&gradients[j], &directions[i]) * half;

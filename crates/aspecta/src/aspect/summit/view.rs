@@ -3,10 +3,10 @@
 use super::MOST;
 use super::climb::Growth;
 use super::frame::Frame;
+use super::leg::LegPart;
 use crate::aspect::scale::Scale;
 use crate::kinematics::WorkingMode;
 use crate::kinematics::condition::Conditioner;
-use crate::kinematics::limits::{margin, unit};
 use crate::kinematics::modal::LegClosure;
 use crate::kinematics::placement::{Placement, cofactors, out_of_frame, wrench};
 use crate::num::{Interval, Jet, LANES, Mask, Pack, Scalar, Slope, each};
@@ -14,54 +14,30 @@ use crate::paving::Paving;
 use crate::robot::Robot;
 use arrayvec::ArrayVec;
 
-/// Centred forms over eight boxes, differentiated with respect to the coordinates that vary (at most three, scaled to [−1, 1] in
-/// each box) and, fourth, to the s h of the one singular leg it depends on.
-type Form<const M: usize> = Jet<Slope<Pack, M>, 4>;
-
-/// The place of s h among the derivatives.
-const OWN: usize = 3;
+/// Centred forms over eight boxes, differentiated with respect to the coordinates that vary, scaled to [−1, 1] in each box.
+pub(super) type Form<const M: usize> = Jet<Slope<Pack, M>, M>;
 
 /// The robot over eight boxes.
 pub(super) struct View<'a, const D: usize, const N: usize, const M: usize> {
+    pub robot: &'a Robot,
     pub paving: &'a Paving,
+    pub scale: &'a Scale,
     boxes: [u32; LANES],
-    placement: Placement<Form<M>, D>,
-    legs: [LegClosure<Form<M>, D>; N],
+    pub placement: Placement<Form<M>, D>,
+    pub legs: [LegClosure<Form<M>, D>; N],
     /// H_j and its gradient.
     pub reach: [Field<M>; N],
     /// The range of h_j.
     pub heights: [Pack; N],
-    /// The parts of ∂f/∂d: fixed + s h swing.
-    fixed: [[Form<M>; D]; N],
-    swing: [[Form<M>; D]; N],
+    /// h_j = √H_j, where that may be differentiated.
+    pub smooth: [Form<M>; N],
+    /// The parts of the rows of A: fixed + s h swing.
+    pub fixed: [[Form<M>; N]; N],
+    pub swing: [[Form<M>; N]; N],
     /// Which legs have a serial singularity with a root in it.
     pub rooted: [bool; N],
     /// Lanes in which every row of A is bounded.
     pub usable: Mask,
-}
-
-/// What depends on the range of h too.
-pub(super) struct Part<const N: usize, const M: usize> {
-    /// Rows of A for both postures.
-    rows: [[[Form<M>; N]; 2]; N],
-    /// Per leg, posture and limit: the margin.
-    limits: [[Vec<Limited<M>>; 2]; N],
-    pub heights: [Pack; N],
-    /// Per leg: the lanes in which it counts as singular, and its h as a variable of its own.
-    pub singular: [Mask; N],
-}
-
-/// Lane by lane, `yes` where the mask holds, else `no`.
-fn select<const M: usize>(mask: &Mask, yes: &Form<M>, no: &Form<M>) -> Form<M> {
-    let slope = |yes: &Slope<Pack, M>, no: &Slope<Pack, M>| Slope {
-        range: Pack::select(mask, yes.range, no.range),
-        centre: Pack::select(mask, yes.centre, no.centre),
-        slope: each!(|k| Pack::select(mask, yes.slope[k], no.slope[k])),
-    };
-    Form {
-        value: slope(&yes.value, &no.value),
-        gradient: each!(|k| slope(&yes.gradient[k], &no.gradient[k])),
-    }
 }
 
 /// Values and gradient of a function over eight boxes.
@@ -88,12 +64,6 @@ impl<const N: usize, const M: usize> Determinant<N, M> {
     }
 }
 
-/// A limit's margin: it depends on its leg's s h too.
-struct Limited<const M: usize> {
-    field: Field<M>,
-    own: Pack,
-}
-
 /// det A: it depends on every leg's s h.
 pub(super) struct Determinant<const N: usize, const M: usize> {
     value: Pack,
@@ -101,12 +71,12 @@ pub(super) struct Determinant<const N: usize, const M: usize> {
     own: [Pack; N],
 }
 
-fn range<const M: usize>(f: Slope<Pack, M>) -> Pack {
+pub(super) fn range<const M: usize>(f: Slope<Pack, M>) -> Pack {
     f.tightened().range
 }
 
 impl<const M: usize> Field<M> {
-    fn of(f: &Form<M>) -> Self {
+    pub(super) fn of(f: &Form<M>) -> Self {
         Self { value: range(f.value), gradient: each!(|a| range(f.gradient[a])) }
     }
 
@@ -116,7 +86,7 @@ impl<const M: usize> Field<M> {
 }
 
 impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
-    pub(super) fn new(robot: &Robot, paving: &'a Paving, boxes: &[u32; LANES]) -> Self {
+    pub(super) fn new(robot: &'a Robot, paving: &'a Paving, scale: &'a Scale, boxes: &[u32; LANES]) -> Self {
         let cells = boxes.map(|node| paving.bounds(node));
         let y: [Form<M>; N] = std::array::from_fn(|k| match paving.axes.iter().position(|&axis| axis == k) {
             None => Form::constant(Interval::point(paving.window.ranges[k].0)),
@@ -131,70 +101,55 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
             }
         });
         let (placement, legs) = paving.chart.at::<Form<M>, D, N>(robot, &y, |k| y[k].sin_cos());
-        let mut usable = [true; LANES];
-        let mut fixed = [[Form::zero(); D]; N];
-        let mut swing = [[Form::zero(); D]; N];
-        for (j, leg) in robot.legs.iter().enumerate() {
-            let closure = &legs[j].closure;
-            (fixed[j], swing[j]) = (closure.fixed, closure.swing);
-            // Rows of A itself, not times the weight: what varies least is enclosed best.
-            if legs[j].is_weighted(leg) {
-                let weight = closure.weight.tightened();
-                let positive = weight.value.range.positive();
-                (0..LANES).for_each(|l| usable[l] &= positive[l]);
-                let inverse = (Form::constant(Interval::point(1.0)) / weight).tightened();
-                let by_weight = |v: &[Form<M>; D]| each!(|k| (v[k].tightened() * inverse).tightened());
-                (fixed[j], swing[j]) = (by_weight(&closure.fixed), by_weight(&closure.swing));
-            }
-        }
-        let rooted =
-            std::array::from_fn(|j| legs[j].fold.is_none() && robot.legs[j].actuator.postures() == 2);
         let reach: [Field<M>; N] = std::array::from_fn(|j| Field::of(&legs[j].closure.reach));
-        let heights = each!(|j| reach[j].value.sqrt());
-        Self { paving, boxes: *boxes, placement, legs, reach, heights, fixed, swing, rooted, usable }
+        let mut view = Self {
+            robot,
+            paving,
+            scale,
+            boxes: *boxes,
+            placement,
+            rooted: std::array::from_fn(|j| legs[j].fold.is_none() && robot.legs[j].actuator.postures() == 2),
+            legs,
+            heights: each!(|j| reach[j].value.sqrt()),
+            reach,
+            smooth: [Form::zero(); N],
+            fixed: [[Form::zero(); N]; N],
+            swing: [[Form::zero(); N]; N],
+            usable: [true; LANES],
+        };
+        (0..N).for_each(|j| view.set_rows(j));
+        view
     }
 
-    pub(super) fn part(&self, robot: &Robot, heights: &[Pack; N], singular: &[Mask; N]) -> Part<N, M> {
-        let mut rows = [[[Form::zero(); N]; 2]; N];
-        let mut limits: [[Vec<Limited<M>>; 2]; N] = std::array::from_fn(|_| Default::default());
-        for (j, leg) in robot.legs.iter().enumerate() {
-            let signed = if self.rooted[j] {
-                // H need not be above zero at the centre: h's own slopes are of no use near a singularity.
-                let whole = |range| Slope { range, centre: range, slope: [Pack::zero(); M] };
-                let smooth = self.legs[j].closure.reach.tightened().sqrt();
-                let h =
-                    if is_whole(&heights[j], &self.heights[j]) { smooth.value } else { whole(heights[j]) };
-                [(h, smooth), (-h, -smooth)]
-                    .map(|(own, smooth)| select(&singular[j], &Form::variable(own, OWN), &smooth))
-            } else {
-                self.legs[j].heights()
+    /// Row j of A itself, not times the weight: what varies least is enclosed best.
+    fn set_rows(&mut self, j: usize) {
+        let (robot, leg) = (self.robot, &self.robot.legs[j]);
+        let LegClosure { closure, arm, .. } = &self.legs[j];
+        let inverse = self.legs[j].is_weighted(leg).then(|| {
+            let weight = closure.weight.tightened();
+            let positive = weight.value.range.positive();
+            (0..LANES).for_each(|l| self.usable[l] &= positive[l]);
+            (Form::constant(Interval::point(1.0)) / weight).tightened()
+        });
+        let row = |part: &[Form<M>; D]| -> [Form<M>; N] {
+            let part = match &inverse {
+                Some(inverse) => &each!(|k| (part[k].tightened() * *inverse).tightened()),
+                None => part,
             };
-            let at = self.legs[j].limited(leg);
-            for (posture, row) in rows[j].iter_mut().enumerate() {
-                let sh = signed[posture];
-                let g: [Form<M>; D] = match self.rooted[j] {
-                    true => each!(|k| self.fixed[j][k] + sh * self.swing[j][k]),
-                    false => self.fixed[j],
-                };
-                let row_of_a: [Form<M>; N] =
-                    wrench(robot.platform, &out_of_frame(leg, &g), &self.legs[j].arm);
-                *row = each!(|k| row_of_a[k].tightened());
-                for limit in &leg.limits {
-                    let inside = margin(limit, &at, sh, &self.placement) / unit(limit, &at, sh);
-                    limits[j][posture]
-                        .push(Limited { field: Field::of(&inside), own: range(inside.gradient[OWN]) });
-                }
-            }
+            let row: [Form<M>; N] = wrench(robot.platform, &out_of_frame(leg, part), arm);
+            each!(|k| row[k].tightened())
+        };
+        self.fixed[j] = row(&closure.fixed);
+        if self.rooted[j] {
+            self.swing[j] = row(&closure.swing);
+            self.smooth[j] = closure.reach.tightened().sqrt();
         }
-        Part { rows, limits, heights: *heights, singular: *singular }
     }
 
     /// All constraints but det A, in one box.
     pub(super) fn constraints(
         &self,
-        robot: &Robot,
-        scale: &Scale,
-        part: &Part<N, M>,
+        part: &[LegPart<N, M>; N],
         frame: &Frame<N, M>,
         mode: WorkingMode,
         lane: usize,
@@ -203,15 +158,15 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
         let mut add = |value: Interval, scale: f64, along| {
             let _ = all.try_push(Growth { value: value / Interval::point(scale), along });
         };
-        for (j, leg) in robot.legs.iter().enumerate() {
+        for (j, leg) in self.robot.legs.iter().enumerate() {
             let sign = f64::from(mode.sign(j));
             if leg.actuator.postures() == 2 {
-                let reach = self.reach[j].value.lane(lane).meet(part.heights[j].lane(lane).square());
-                let height = (reach / Interval::point(scale.reach[j])).sqrt();
+                let reach = self.reach[j].value.lane(lane).meet(part[j].height.lane(lane).square());
+                let height = (reach / Interval::point(self.scale.reach[j])).sqrt();
                 add(height, 1.0, self.reach_along(frame, j, sign, lane));
             }
-            let limits = &part.limits[j][usize::from(mode.sign(j) < 0)];
-            for (limit, &scale) in limits.iter().zip(&scale.limits[j]) {
+            let limits = &part[j].limits[usize::from(mode.sign(j) < 0)];
+            for (limit, &scale) in limits.iter().zip(&self.scale.limits[j]) {
                 let own = (j, sign, limit.own.lane(lane));
                 let along = frame.along(&limit.field.gradient_in(lane), &[own]);
                 add(limit.field.value.lane(lane), scale, along);
@@ -247,10 +202,10 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
         }
     }
 
-    pub(super) fn determinant(&self, part: &Part<N, M>, mode: WorkingMode) -> Determinant<N, M> {
+    pub(super) fn determinant(&self, part: &[LegPart<N, M>; N], mode: WorkingMode) -> Determinant<N, M> {
         let posture = |j: usize| usize::from(mode.sign(j) < 0);
         let mut rows: [[Slope<Pack, M>; N]; N] =
-            std::array::from_fn(|j| each!(|i| part.rows[j][posture(j)][i].value));
+            std::array::from_fn(|j| each!(|i| part[j].rows[posture(j)][i].value));
         // det A = det(A Z) / det Z, for the derivatives too.
         let by = (N > 3).then(|| Conditioner::new(&rows));
         let conditioned = |row: [Slope<Pack, M>; N]| by.as_ref().map_or(row, |by| by.row(&row));
@@ -263,9 +218,8 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
         for i in 1..N {
             det = det + rows[0][i] * minors[0][i];
         }
-        let partial = |j: usize, k: usize| {
-            let row = &part.rows[j][posture(j)];
-            let row = conditioned(each!(|i| row[i].gradient[k]));
+        let partial = |j: usize, row: [Slope<Pack, M>; N]| {
+            let row = conditioned(row);
             let mut sum = minors[j][0] * row[0];
             for i in 1..N {
                 sum = sum + minors[j][i] * row[i];
@@ -274,25 +228,25 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
         };
         let range = |f: Slope<Pack, M>| by.as_ref().map_or(range(f), |by| range(f) / by.det);
         let gradient: [Pack; M] = each!(|a| {
-            let mut sum = partial(0, a);
+            let along = |j: usize| each!(|i| part[j].rows[posture(j)][i].gradient[a]);
+            let mut sum = partial(0, along(0));
             for j in 1..N {
-                sum = sum + partial(j, a);
+                sum = sum + partial(j, along(j));
             }
             range(sum)
         });
         // The mean-value theorem, where the gradient is the whole of the derivative.
         let middle = by.as_ref().map_or(det.centre, |by| det.centre / by.det);
         let around = (0..M).fold(middle, |sum, a| sum + gradient[a].symmetric());
-        let whole: Mask = std::array::from_fn(|l| !(0..N).any(|j| part.singular[j][l]));
+        let whole: Mask = std::array::from_fn(|l| !(0..N).any(|j| part[j].singular[l]));
         let value = range(det);
         Determinant {
             value: Pack::select(&whole, value.meet(around), value),
             gradient,
-            own: each!(|j| if self.rooted[j] { range(partial(j, OWN)) } else { Pack::zero() }),
+            own: each!(|j| match self.rooted[j] {
+                true => range(partial(j, each!(|i| self.swing[j][i].value))),
+                false => Pack::zero(),
+            }),
         }
     }
-}
-
-fn is_whole(part: &Pack, whole: &Pack) -> bool {
-    part.lo == whole.lo && part.hi == whole.hi
 }
