@@ -10,7 +10,7 @@ use crate::kinematics::modal::Constraint;
 use crate::kinematics::path::Along;
 use crate::kinematics::{WorkingMode, for_platform};
 use crate::num::{Interval, Jet, Scalar};
-use crate::paving::{ClassSet, Control, Paving};
+use crate::paving::{ClassSet, Paving};
 use crate::robot::Robot;
 use nalgebra::{DMatrix, SMatrix, SVector};
 use rayon::prelude::*;
@@ -36,7 +36,7 @@ pub(super) fn merge(
     class: Class,
     components: &Components,
     worth: &[bool],
-    control: &Control<'_>,
+    stop: &(impl Fn() -> bool + Sync),
 ) -> (UnionFind, Vec<Path>) {
     let pieces = &components.pieces;
     let mut largest = std::collections::HashMap::new();
@@ -51,7 +51,7 @@ pub(super) fn merge(
     let climbs: Vec<Climb> = climbers
         .par_iter()
         .map(|&k| {
-            if control.is_cancelled() {
+            if stop() {
                 return Climb::default();
             }
             let goal = largest[&pieces[k].component] as u32;

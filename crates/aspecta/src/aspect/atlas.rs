@@ -8,6 +8,8 @@ use crate::kinematics::for_platform;
 use crate::num::{Interval, Scalar};
 use crate::paving::{Budget, ClassSet, Control, Node, Paving, Progress, for_paving};
 use crate::robot::{Robot, Window};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
 
 /// A box: sheet and node.
 pub(super) type Leaf = (usize, u32);
@@ -18,8 +20,13 @@ pub(super) struct Limits<'a> {
     pub depth: u32,
     /// Greatest number of boxes.
     pub boxes: u64,
-    /// Whether the time is up.
-    pub late: &'a (dyn Fn() -> bool + Sync),
+    /// When it began, and how many seconds it may take with all that follows.
+    pub time: Option<(Instant, f64)>,
+    /// How long, in seconds, each box takes in what follows: the last count and the report.
+    pub rest: f64,
+    /// Whether the time has kept anything from being done.
+    pub late: AtomicBool,
+    pub control: &'a Control<'a>,
 }
 
 /// What [`Atlas::even_out`] did.
@@ -36,8 +43,21 @@ impl Limits<'_> {
         (self.boxes.saturating_sub(atlas.boxes()) >> atlas.sheets[0].axes.len()) as usize
     }
 
-    pub(super) fn is_over(&self, control: &Control<'_>) -> bool {
-        (self.late)() || control.is_cancelled()
+    /// Whether so many boxes are to be left as they are, because what follows takes the time that is left.
+    pub(super) fn is_over(&self, boxes: u64) -> bool {
+        self.has_less_than(self.rest * boxes as f64)
+    }
+
+    /// Whether nothing is to be begun any more that can be left out.
+    pub(super) fn is_spent(&self) -> bool {
+        self.has_less_than(self.time.map_or(0.0, |(_, seconds)| 0.15 * seconds))
+    }
+
+    fn has_less_than(&self, needed: f64) -> bool {
+        let late = |(start, seconds): (Instant, f64)| start.elapsed().as_secs_f64() + needed > seconds;
+        let late = self.time.is_some_and(late);
+        self.late.fetch_or(late, Ordering::Relaxed);
+        late || self.control.is_cancelled()
     }
 }
 
@@ -144,33 +164,29 @@ impl<'a> Atlas<'a> {
 
     /// Splits and searches boxes until no aspect can hide in any or they are as small as they may be; `fresh` are the leaves not
     /// searched yet. False if boxes or time ended it.
-    pub(super) fn uncover(
-        &mut self,
-        mut fresh: Vec<Leaf>,
-        limits: &Limits<'_>,
-        control: &Control<'_>,
-    ) -> bool {
+    pub(super) fn uncover(&mut self, mut fresh: Vec<Leaf>, limits: &Limits<'_>) -> bool {
         loop {
             let worth = self.is_worth_searching(&fresh);
-            let open = if worth { self.survey(&fresh, limits, control) } else { fresh };
+            let open = if worth { self.survey(&fresh, limits) } else { fresh };
             let (split, deepest): (Vec<Leaf>, Vec<Leaf>) =
                 open.into_iter().partition(|&leaf| self.depth_of(leaf) < limits.depth);
             if !worth {
                 // What cannot be split is searched all the same.
-                self.survey(&deepest, limits, control);
+                self.survey(&deepest, limits);
             }
             if split.is_empty() {
                 return true;
             }
-            if split.len() > limits.affordable(self) || limits.is_over(control) {
+            if split.len() > limits.affordable(self) {
                 return false;
             }
-            fresh = self.split(&split, control);
+            let Some(children) = self.split(&split, limits) else { return false };
+            fresh = children;
         }
     }
 
     /// Splits every undecided box of sheet 0 down to `depth`.
-    pub(super) fn even_out(&mut self, depth: u32, limits: &Limits<'_>, control: &Control<'_>) -> Even {
+    pub(super) fn even_out(&mut self, depth: u32, limits: &Limits<'_>) -> Even {
         let coarse = |paving: &Paving, at: u32| {
             let node = &paving.nodes[at as usize];
             node.first_child == 0 && node.undecided != 0 && u32::from(node.depth) < depth
@@ -181,15 +197,16 @@ impl<'a> Atlas<'a> {
             let all = self.sheets[0].nodes.len() as u32;
             let split: Vec<Leaf> =
                 (first..all).filter(|&at| coarse(&self.sheets[0], at)).map(|at| (0, at)).collect();
-            if split.is_empty() {
+            if split.is_empty() || !even.reached {
                 return even;
             }
-            if split.len() > limits.affordable(self) || limits.is_over(control) {
+            if split.len() > limits.affordable(self) || limits.is_over(self.boxes()) {
                 return Even { reached: false, ..even };
             }
             let done = self.boxes();
-            (control.progress)(Progress { stage: "paving evenly", done, total: done + split.len() as u64 });
-            self.split(&split, control);
+            let total = done + split.len() as u64;
+            (limits.control.progress)(Progress { stage: "paving evenly", done, total });
+            even.reached = self.split(&split, limits).is_some();
             (first, even.changed) = (all, true);
         }
     }
@@ -214,19 +231,14 @@ impl<'a> Atlas<'a> {
     }
 
     /// Looks for summits in leaves, as long as the limits allow, and returns those in which some might be.
-    pub(super) fn survey(
-        &mut self,
-        leaves: &[Leaf],
-        limits: &Limits<'_>,
-        control: &Control<'_>,
-    ) -> Vec<Leaf> {
+    pub(super) fn survey(&mut self, leaves: &[Leaf], limits: &Limits<'_>) -> Vec<Leaf> {
         const SOME: usize = 1 << 15;
         for (done, some) in leaves.chunks(SOME).enumerate() {
-            if limits.is_over(control) {
+            if limits.is_over(self.boxes()) {
                 break;
             }
             let (done, total) = ((done * SOME) as u64, leaves.len() as u64);
-            (control.progress)(Progress { stage: "looking for hidden aspects", done, total });
+            (limits.control.progress)(Progress { stage: "looking for hidden aspects", done, total });
             for sheet in 0..self.sheets.len() {
                 let asked: Vec<(u32, ClassSet)> = some
                     .iter()
@@ -250,17 +262,19 @@ impl<'a> Atlas<'a> {
         for_paving!(robot, paving.axes.len(), summitless(robot, paving, scale, asked))
     }
 
-    /// Splits leaves; returns their children.
-    pub(super) fn split(&mut self, leaves: &[Leaf], control: &Control<'_>) -> Vec<Leaf> {
+    /// Splits leaves; returns their children, or `None` if the limits ended it before all were split.
+    pub(super) fn split(&mut self, leaves: &[Leaf], limits: &Limits<'_>) -> Option<Vec<Leaf>> {
         let mut children = Vec::new();
+        let mut all = true;
+        let boxes = self.boxes() + ((leaves.len() as u64) << self.sheets[0].axes.len());
         for (s, sheet) in self.sheets.iter_mut().enumerate() {
             let here: Vec<u32> = leaves.iter().filter(|l| l.0 == s).map(|l| l.1).collect();
             let first = sheet.nodes.len() as u32;
             let charts = if s == 0 { self.charts.as_slice() } else { &[] };
-            sheet.split(self.robot, charts, &here, &|| control.is_cancelled());
+            all &= sheet.split(self.robot, charts, &here, &|| limits.is_over(boxes));
             children.extend((first..sheet.nodes.len() as u32).map(|n| (s, n)));
         }
-        children
+        all.then_some(children)
     }
 }
 

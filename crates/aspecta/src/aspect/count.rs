@@ -1,9 +1,9 @@
 //! The count of one class: bounds from the two graphs, and where they are kept apart.
 
 use super::ascent::{Class, Path, merge};
-use super::atlas::{Atlas, Leaf};
+use super::atlas::{Atlas, Leaf, Limits};
 use super::components::{Components, UnionFind};
-use crate::paving::{ClassSet, Control, Node};
+use crate::paving::{ClassSet, Node};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 /// The components of a class and what is proved of their number.
@@ -66,7 +66,7 @@ impl Counted {
 const SEARCHED: usize = 1 << 14;
 
 /// Counts a class.
-pub(super) fn count(atlas: &Atlas<'_>, class: Class, control: &Control<'_>) -> Counted {
+pub(super) fn count(atlas: &Atlas<'_>, class: Class, limits: &Limits<'_>) -> Counted {
     let sight = |node: &Node| node.of_classes(class.bit);
     let mut links = Vec::new();
     let components =
@@ -81,8 +81,9 @@ pub(super) fn count(atlas: &Atlas<'_>, class: Class, control: &Control<'_>) -> C
         }
     }
     let mut summitless = Vec::new();
-    let fertile = fertile(atlas, class.bit, &components, &anchored, &mut summitless);
-    let (mut joined, joins) = merge(atlas.robot, &atlas.sheets, class, &components, &fertile, control);
+    let fertile = fertile(atlas, class.bit, &components, &anchored, limits, &mut summitless);
+    let (mut joined, joins) =
+        merge(atlas.robot, &atlas.sheets, class, &components, &fertile, &|| limits.is_spent());
     let mut groups = BTreeMap::<u32, Vec<u32>>::new();
     for (k, piece) in components.pieces.iter().enumerate() {
         groups.entry(piece.component).or_default().push(k as u32);
@@ -113,6 +114,7 @@ fn fertile(
     bit: ClassSet,
     components: &Components,
     anchored: &BTreeSet<u32>,
+    limits: &Limits<'_>,
     summitless: &mut Vec<Leaf>,
 ) -> Vec<bool> {
     let pieces = &components.pieces;
@@ -141,7 +143,7 @@ fn fertile(
             }
             let component = pieces[k].component;
             let is_sure = anchored.contains(&component) && largest[&component] == k;
-            if is_sure || boxes[k].len() > SEARCHED {
+            if is_sure || boxes[k].len() > SEARCHED || limits.is_spent() {
                 return true;
             }
             let mut all = true;

@@ -6,9 +6,10 @@ use crate::kinematics::leg::Drive;
 use crate::kinematics::modal::closures;
 use crate::kinematics::placement::Placement;
 use crate::kinematics::{WorkingMode, for_platform};
-use crate::num::Interval;
+use crate::num::{Interval, Scalar};
 use crate::paving::Paving;
-use crate::robot::Robot;
+use crate::robot::{Leg, Limit, Robot};
+use arrayvec::ArrayVec;
 
 /// The smallest range that holds all the intervals; on a circle of 2π, the complement of the widest gap
 /// (its upper end may lie beyond π), or (−π, π) if there is none.
@@ -34,76 +35,103 @@ pub(super) fn hull(mut ranges: Vec<Interval>, circular: bool) -> (f64, f64) {
     if widest > 0.0 { hull } else { (-PI, PI) }
 }
 
+/// A union of intervals, disjoint and ascending.
+#[derive(Clone, Default)]
+struct Union(Vec<Interval>);
+
+impl Union {
+    fn holds(&self, x: Interval) -> bool {
+        let next = self.0.partition_point(|r| r.hi < x.lo);
+        self.0.get(next).is_some_and(|r| r.lo <= x.lo && x.hi <= r.hi)
+    }
+
+    fn add(&mut self, x: Interval) {
+        let first = self.0.partition_point(|r| r.hi < x.lo);
+        let last = self.0.partition_point(|r| r.lo <= x.hi);
+        let joined = self.0[first..last].iter().fold(x, |all, &r| all.hull(r));
+        self.0.splice(first..last, [joined]);
+    }
+}
+
+/// Enclosures, one a coordinate.
+type Image = ArrayVec<Interval, 6>;
+
+/// Adds the images of the given boxes to a union per coordinate. The image of a box that holds several of them is looked at first: if it
+/// adds nothing, neither do theirs.
+fn add_images(paving: &Paving, boxes: &[u32], unions: &mut [Union], image: &impl Fn(u32) -> Image) {
+    let mut mine = vec![Holds::None; paving.nodes.len()];
+    boxes.iter().for_each(|&node| mine[node as usize] = Holds::Itself);
+    // Children come after their parent.
+    for at in (0..paving.nodes.len()).rev().filter(|&at| paving.nodes[at].first_child != 0) {
+        let below = paving.children(at as u32).any(|child| mine[child as usize] != Holds::None);
+        if below && mine[at] == Holds::None {
+            mine[at] = Holds::Some;
+        }
+    }
+    let mut stack = vec![0];
+    while let Some(at) = stack.pop() {
+        if mine[at as usize] == Holds::None {
+            continue;
+        }
+        let ranges = image(at);
+        if unions.iter().zip(&ranges).all(|(union, &x)| union.holds(x)) {
+            continue;
+        }
+        match mine[at as usize] {
+            Holds::Itself => unions.iter_mut().zip(ranges).for_each(|(union, x)| union.add(x)),
+            _ => stack.extend(paving.children(at)),
+        }
+    }
+}
+
+/// Which boxes of a set a node holds.
+#[derive(Clone, Copy, PartialEq)]
+enum Holds {
+    None,
+    Some,
+    Itself,
+}
+
 /// Bounds, per pose coordinate, of the poses of the given boxes of all sheets.
 pub(super) fn w_bounds(robot: &Robot, sheets: &[Paving], boxes: &[Leaf]) -> Vec<(f64, f64)> {
     let window = &sheets[0].window;
-    let mut all: Vec<Vec<Interval>> = vec![Vec::with_capacity(boxes.len()); window.axes().len()];
-    for &(sheet, node) in boxes {
-        if sheet == 0 {
-            let (lo, hi) = sheets[0].bounds(node);
-            all.iter_mut().enumerate().for_each(|(a, all)| all.push(Interval::new(lo[a], hi[a])));
-        } else {
-            let pose = poses(robot, sheets, (sheet, node));
-            all.iter_mut().zip(&sheets[0].axes).for_each(|(all, &k)| all.push(pose[k]));
-        }
+    let mut unions = vec![Union::default(); window.ranges.len()];
+    for sheet in 0..sheets.len() {
+        let within = |(k, x): (usize, Interval)| match window.ranges[k] {
+            // Near a pole of the pitch roll and yaw may be anything.
+            (lo, hi) if x.width() >= hi - lo => Interval::new(lo, hi),
+            _ if window.glued[k] => x,
+            (lo, hi) => Interval::new(x.lo.max(lo).min(hi), x.hi.min(hi).max(lo)),
+        };
+        let image = |node| poses(robot, sheets, (sheet, node)).into_iter().enumerate().map(within).collect();
+        let here: Vec<u32> = boxes.iter().filter(|leaf| leaf.0 == sheet).map(|leaf| leaf.1).collect();
+        add_images(&sheets[sheet], &here, &mut unions, &image);
     }
-    let mut bounds = window.ranges.clone();
-    for (mut all, &k) in all.into_iter().zip(&sheets[0].axes) {
-        let (lo, hi) = window.ranges[k];
-        for x in &mut all {
-            match window.glued[k] {
-                // Near a pole of the pitch roll and yaw may be anything.
-                _ if x.width() >= hi - lo => *x = Interval::new(lo, hi),
-                true => {}
-                false => *x = Interval::new(x.lo.max(lo), x.hi.min(hi)),
-            }
-        }
-        bounds[k] = hull(all, window.glued[k]);
-    }
-    bounds
-}
-
-/// A box by its grid coordinates and depth.
-type Cell = ([u32; 3], u32);
-
-/// The given boxes, the finest replaced by the boxes one level up that hold them: a cover of as good as the same
-/// extent with far fewer members.
-fn cover(paving: &Paving, boxes: &[u32]) -> Vec<Cell> {
-    let finest = paving.depth.saturating_sub(1);
-    let coarse = |&node: &u32| {
-        let (corner, depth) = (paving.nodes[node as usize].corner, paving.depth_of(node));
-        let up = depth.saturating_sub(finest);
-        (corner.map(|i| i >> up), depth - up)
-    };
-    let mut cells: Vec<Cell> = boxes.iter().map(coarse).collect();
-    cells.sort_unstable();
-    cells.dedup();
-    cells
+    unions.into_iter().zip(&window.glued).map(|(union, &glued)| hull(union.0, glued)).collect()
 }
 
 /// Bounds, per joint coordinate, that certainly hold g_s over the given boxes, all inside mode `mode`.
 pub(super) fn q_bounds(robot: &Robot, paving: &Paving, mode: WorkingMode, boxes: &[u32]) -> Vec<(f64, f64)> {
-    let cells = cover(paving, boxes);
-    let mut ranges: Vec<Vec<Interval>> = vec![Vec::with_capacity(cells.len()); robot.dof()];
-    for cell in &cells {
-        for_platform!(robot.platform, joints_over(robot, paving, mode, cell, &mut ranges));
-    }
-    ranges.into_iter().zip(&robot.legs).map(|(r, leg)| hull(r, leg.actuator.is_angle())).collect()
+    let mut unions = vec![Union::default(); robot.dof()];
+    let limits: Vec<Option<Interval>> = robot.legs.iter().map(driven_range).collect();
+    let within = |(j, x): (usize, Interval)| limits[j].map_or(x, |limit| common(limit, x, &robot.legs[j]));
+    let image = |node| {
+        let joints: Image = for_platform!(robot.platform, joints_over(robot, paving, mode, node));
+        joints.into_iter().enumerate().map(within).collect()
+    };
+    add_images(paving, boxes, &mut unions, &image);
+    unions.into_iter().zip(&robot.legs).map(|(union, leg)| hull(union.0, leg.actuator.is_angle())).collect()
 }
 
-/// Appends enclosures of the joints over a box, wherever the legs close in it.
+/// Enclosures of the joints over a box, wherever the legs close in it.
 fn joints_over<const D: usize, const N: usize>(
     robot: &Robot,
     paving: &Paving,
     mode: WorkingMode,
-    (corner, depth): &Cell,
-    ranges: &mut [Vec<Interval>],
-) {
-    let mut x: [Interval; N] = std::array::from_fn(|k| Interval::point(paving.window.ranges[k].0));
-    for (a, &k) in paving.axes.iter().enumerate() {
-        let line = |i| paving.window.grid_line(k, i, *depth);
-        x[k] = Interval::new(line(corner[a]), line(corner[a] + 1));
-    }
+    node: u32,
+) -> Image {
+    let extent = paving.extent(node);
+    let x: [Interval; N] = std::array::from_fn(|k| extent[k]);
     let legs = closures::<Interval, D, N>(robot, &Placement::at(robot.platform, &x));
     let joint = |j: usize| match legs[j].drive(&robot.legs[j], mode.sign(j)) {
         Drive::Angle { cos, sin, .. } => {
@@ -111,14 +139,75 @@ fn joints_over<const D: usize, const N: usize>(
         }
         Drive::Length(q) => q,
     };
-    for (j, all) in ranges.iter_mut().enumerate() {
-        all.push(joint(j));
+    (0..N).map(joint).collect()
+}
+
+/// What the limits of a leg leave its driven joint.
+fn driven_range(leg: &Leg) -> Option<Interval> {
+    leg.limits.iter().find_map(|limit| match limit {
+        Limit::ActuatorAngle { middle, half_cos } => {
+            let half = Interval::angle(*half_cos, (Interval::point(1.0) - half_cos.square()).sqrt())?;
+            let middle = Interval::angle(middle.0, middle.1)?;
+            Some((middle - half).hull(middle + half))
+        }
+        Limit::ActuatorLength { min, max } => Some(min.hull(*max)),
+        _ => None,
+    })
+}
+
+/// What a range has in common with a limit; angles may lie full turns apart.
+fn common(limit: Interval, x: Interval, leg: &Leg) -> Interval {
+    if !leg.actuator.is_angle() {
+        return Interval::new(x.lo.max(limit.lo).min(x.hi), x.hi.min(limit.hi).max(x.lo));
+    }
+    if x.width() >= std::f64::consts::TAU {
+        return limit;
+    }
+    let turned = |k: f64| limit + Interval::PI * Interval::point(2.0 * k);
+    let mut shared =
+        [-2.0, -1.0, 0.0, 1.0, 2.0].map(turned).into_iter().filter(|l| l.lo <= x.hi && x.lo <= l.hi);
+    match (shared.next(), shared.next()) {
+        (Some(limit), None) => limit.meet(x),
+        _ => x,
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::robot::Limit;
+
+    #[test]
+    fn unions_are_disjoint() {
+        let mut union = Union::default();
+        for (lo, hi) in [(4.0, 5.0), (0.0, 1.0), (2.0, 3.0), (0.5, 2.5), (7.0, 8.0)] {
+            union.add(Interval::new(lo, hi));
+        }
+        assert_eq!(union.0, [(0.0, 3.0), (4.0, 5.0), (7.0, 8.0)].map(|(lo, hi)| Interval::new(lo, hi)));
+        let held = |lo, hi| union.holds(Interval::new(lo, hi));
+        assert!(held(0.5, 2.9) && held(7.0, 8.0));
+        assert!(!held(2.9, 4.1) && !held(3.2, 3.5) && !held(-1.0, 0.5) && !held(9.0, 9.5));
+    }
+
+    #[test]
+    fn driven_joints_keep_their_limits() {
+        let mut leg = Leg::revolute([0.0, 0.0], [0.0, 0.0], 1.0, 1.0);
+        let arc = |middle: f64, half: f64| Limit::ActuatorAngle {
+            middle: (Interval::point(middle.cos()), Interval::point(middle.sin())),
+            half_cos: Interval::point(half.cos()),
+        };
+        leg.limits = vec![arc(3.0, 0.5)];
+        let limit = driven_range(&leg).unwrap();
+        assert!((limit.lo - 2.5).abs() < 1e-12 && (limit.hi - 3.5).abs() < 1e-12);
+        // The same angles, a full turn further on.
+        let shared = common(limit, Interval::new(-3.9, -2.9), &leg);
+        assert!((shared.lo - (2.5 - std::f64::consts::TAU)).abs() < 1e-12 && shared.hi == -2.9);
+        assert_eq!(common(limit, Interval::new(-4.0, 4.0), &leg), limit);
+        // Two parts are left as they are.
+        leg.limits = vec![arc(3.0, 3.0)];
+        let around = Interval::new(-1.0, 1.0);
+        assert_eq!(common(driven_range(&leg).unwrap(), around, &leg), around);
+    }
 
     #[test]
     fn a_circular_hull_leaves_out_the_widest_gap() {

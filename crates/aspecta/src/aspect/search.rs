@@ -8,6 +8,7 @@ use crate::paving::{Budget, Control, MAX_BOXES, Progress, Stop};
 use crate::robot::{Robot, Window};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 /// All classes, counted over one atlas.
@@ -29,61 +30,63 @@ impl<'a> Search<'a> {
         control: &Control<'_>,
     ) -> Self {
         let start = Instant::now();
-        let late = || budget.seconds.is_some_and(|s| start.elapsed().as_secs_f64() > SHARE * s);
         let limits = Limits {
             depth: budget.finest(window).unwrap_or(DEEPEST),
             boxes: budget.boxes.unwrap_or(MAX_BOXES).min(MAX_BOXES),
-            late: &late,
+            time: budget.seconds.map(|seconds| (start, seconds)),
+            rest: 2.0 * modes.len() as f64 * PER_BOX / rayon::current_num_threads() as f64,
+            late: AtomicBool::new(false),
+            control,
         };
         let atlas = Atlas::new(robot, window, modes, budget, control);
         let paved = atlas.sheets[0].stop;
         let mut search = Self { atlas, counted: Vec::new(), stop: paved };
         let leaves = search.atlas.undecided_leaves();
-        let mut afforded = search.atlas.uncover(leaves, &limits, control);
-        search.count_all(modes, control);
-        afforded &= search.join(&limits, control);
-        let even = search.atlas.even_out(budget.even(window), &limits, control);
+        let mut afforded = search.atlas.uncover(leaves, &limits);
+        search.count_all(modes, &limits);
+        afforded &= search.join(&limits);
+        let even = search.atlas.even_out(budget.even(window), &limits);
         afforded &= even.reached;
         if even.changed {
-            search.recount(control, |_| true);
+            search.recount(&limits, |_| true);
         }
         search.stop = match () {
             () if search.counted.iter().all(|(_, c)| c.is_exact()) => Stop::Exact,
             () if control.is_cancelled() => Stop::Cancelled,
-            () if late() || paved == Stop::Time => Stop::Time,
+            () if limits.late.load(Ordering::Relaxed) || paved == Stop::Time => Stop::Time,
             () if afforded && paved == Stop::Resolution => Stop::Resolution,
             () => Stop::Boxes,
         };
         search
     }
 
-    fn count_all(&mut self, modes: &[WorkingMode], control: &Control<'_>) {
+    fn count_all(&mut self, modes: &[WorkingMode], limits: &Limits<'_>) {
         let signs = |(m, &mode): (usize, &WorkingMode)| {
             [(1, 1 << (2 * m)), (-1, 2 << (2 * m))].map(|(sign, bit)| Class { mode, sign, bit })
         };
         let classes: Vec<Class> = modes.iter().enumerate().flat_map(signs).collect();
         let atlas = &self.atlas;
-        self.counted = classes.into_par_iter().map(|class| (class, count(atlas, class, control))).collect();
-        self.remember(control);
+        self.counted = classes.into_par_iter().map(|class| (class, count(atlas, class, limits))).collect();
+        self.remember(limits);
     }
 
     /// Counts those that are `due` once more. What was exact stays so.
-    fn recount(&mut self, control: &Control<'_>, due: impl Fn(&Counted) -> bool + Sync) {
+    fn recount(&mut self, limits: &Limits<'_>, due: impl Fn(&Counted) -> bool + Sync) {
         let atlas = &self.atlas;
         let again = |(class, old): &mut (Class, Counted)| {
             if due(old) {
-                let new = count(atlas, *class, control);
+                let new = count(atlas, *class, limits);
                 if new.is_exact() || !old.is_exact() {
                     *old = new;
                 }
             }
         };
         self.counted.par_iter_mut().for_each(again);
-        self.remember(control);
+        self.remember(limits);
     }
 
     /// Has the atlas remember which boxes the counts found to have no summit, or to lie in a chart: then counts are due again.
-    fn remember(&mut self, control: &Control<'_>) {
+    fn remember(&mut self, limits: &Limits<'_>) {
         let mut covered = false;
         for (class, counted) in &mut self.counted {
             counted.summitless.iter().for_each(|&leaf| self.atlas.remember(leaf, class.bit));
@@ -93,12 +96,12 @@ impl<'a> Search<'a> {
             }
         }
         if covered {
-            self.recount(control, |counted| !counted.is_exact());
+            self.recount(limits, |counted| !counted.is_exact());
         }
     }
 
     /// Splits what lies between pieces not proved to be one, until the bounds meet or the limits end it: false if boxes or time do.
-    fn join(&mut self, limits: &Limits<'_>, control: &Control<'_>) -> bool {
+    fn join(&mut self, limits: &Limits<'_>) -> bool {
         let mut afforded = true;
         loop {
             let ways = self.gather(limits, |c| &c.between.ways);
@@ -107,14 +110,15 @@ impl<'a> Search<'a> {
             if split.is_empty() {
                 return afforded;
             }
-            if split.len() > limits.affordable(&self.atlas) || limits.is_over(control) {
+            if split.len() > limits.affordable(&self.atlas) || limits.is_over(self.atlas.boxes()) {
                 return false;
             }
             let open = |(_, c): &&(Class, Counted)| !c.is_exact();
             let (total, left) = (self.counted.len() as u64, self.counted.iter().filter(open).count() as u64);
-            (control.progress)(Progress { stage: "joining pieces", done: total - left, total });
+            (limits.control.progress)(Progress { stage: "joining pieces", done: total - left, total });
             let split: Vec<Leaf> = split.into_iter().collect();
-            let mut fresh = self.atlas.split(&split, control);
+            let mut fresh = self.atlas.split(&split, limits);
+            afforded &= fresh.is_some();
             // Ways are few: they are followed several levels down before the pieces are counted again.
             let torn = self.counted.iter().filter(open).fold(0, |torn, (class, _)| torn | class.bit);
             let mut tips: Vec<Leaf> = ways.into_iter().collect();
@@ -123,10 +127,11 @@ impl<'a> Search<'a> {
                 if tips.len() > limits.affordable(&self.atlas) {
                     break;
                 }
-                fresh.extend(self.atlas.split(&tips, control));
+                let Some((all, finer)) = fresh.as_mut().zip(self.atlas.split(&tips, limits)) else { break };
+                all.extend(finer);
             }
-            afforded &= self.atlas.uncover(fresh, limits, control);
-            self.recount(control, |counted| !counted.is_exact());
+            afforded &= self.atlas.uncover(fresh.unwrap_or_default(), limits);
+            self.recount(limits, |counted| !counted.is_exact());
         }
     }
 
@@ -140,8 +145,9 @@ impl<'a> Search<'a> {
 /// How many levels further ways are followed at once.
 const AHEAD: usize = 2;
 
-/// The share of a time budget after which the search ends; the last count and the report take the rest.
-const SHARE: f64 = 0.7;
+/// About how long, in seconds, a thread takes to count and to report one class, for each box of the atlas. Time budgets are kept as well as
+/// this is guessed; nothing else depends on it.
+const PER_BOX: f64 = 0.5e-6;
 
 /// The depth at which a search ends if the budget names none: boxes are then some 10⁻⁸ of the window wide, still a million times
 /// the spacing of doubles.
