@@ -34,6 +34,10 @@ pub fn place(robot: &Robot, doubt: &Doubt) -> Vec<Coordinate> {
     all.filter(|c| c.range.0 < c.range.1).collect()
 }
 
+/// What is said of a robot that is singular wherever it goes.
+pub const ARCHITECTURE: &str = "det A vanishes at every pose that was looked at (numerical): with all actuators locked the platform still moves, wherever it is. \
+     Two legs may be one and the same, or joints lie in one point or line. Such a robot has no aspects.";
+
 /// Why no refinement ends the doubts round some surfaces: a sentence each; none if the bounds meet.
 pub fn reasons(analysis: &Analysis) -> Vec<String> {
     let unit = &analysis.robot.length_unit;
@@ -56,13 +60,16 @@ pub fn reasons(analysis: &Analysis) -> Vec<String> {
     if analysis.doubts.is_empty() {
         return Vec::new();
     }
-    let folds = analysis.uncharted_folds.iter().map(|leg| {
+    let folds = (!analysis.uncharted_folds.is_empty()).then(|| {
+        let legs: Vec<String> = analysis.uncharted_folds.iter().map(usize::to_string).collect();
         format!(
-            "Leg {leg} can fold: its links are equal, or complete each other to half a turn, so that the platform's joint comes onto the \
-             motor's axis, where q{leg} is free. Boxes round these orientations are never decided."
+            "Legs can fold whose links are equal, or complete each other to half a turn: the platform's joint comes onto the motor's axis, where \
+             the motor is free. Leg 1 may, but boxes round the orientations in which leg {} does are never decided.",
+            legs.join(" or ")
         )
     });
-    analysis.parallel_rods.iter().map(reason).chain(folds).collect()
+    let singular = analysis.architecturally_singular.then(|| ARCHITECTURE.to_owned());
+    singular.into_iter().chain(analysis.parallel_rods.iter().map(reason)).chain(folds).collect()
 }
 
 /// The doubts of a kind, those over the most poses first.

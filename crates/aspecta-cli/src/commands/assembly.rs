@@ -91,10 +91,16 @@ impl Assembly {
             let modes = AssemblyModes { q, complete, solutions, numbered_among, shared };
             return self.print(out, &robot, &Found { modes, change: None, explained: None });
         }
+        if let Some(pair) = chosen {
+            let end = |k: usize| Configuration { pose: &solutions[k - 1].pose, mode: solutions[k - 1].mode };
+            if let Some(refused) = planning::refused(&robot, pair.map(end), through, &options) {
+                return planning::print(out, &robot, &refused, &self.planning);
+            }
+        }
         if through {
             modes.clear();
         }
-        let found = self.planning.analysing.with(&robot, &modes, |analysis, control| {
+        let found = self.planning.with(&robot, &modes, |analysis, control| {
             let modes = assembly_modes(analysis, &q)?;
             let Some([from, to]) = chosen else { return Ok(Found { modes, change: None, explained: None }) };
             let [start, goal] = [from, to].map(|k| {
@@ -140,7 +146,6 @@ impl Assembly {
         let Some(pair) = chosen else {
             let joined = self
                 .planning
-                .analysing
                 .explore(|effort, control| Ok(join_solutions(robot, q, found, effort, control)?))?;
             return joined::print(out, robot, &joined, self.planning.shown);
         };
@@ -152,7 +157,7 @@ impl Assembly {
             )));
         }
         let ends = [&from.pose[..], &to.pose[..]];
-        let change = self.planning.analysing.explore(|effort, control| {
+        let change = self.planning.explore(|effort, control| {
             let change = plan_over_roadmap(robot, from.mode, ends, options, (effort, control))?;
             Ok(self.planning.moving.film(robot, None, change))
         })?;

@@ -1,7 +1,10 @@
 //! `aspecta check`: whether a robot file is right.
 
 use crate::failure::{Answer, Failure};
+use crate::output::note;
+use aspecta::kinematics::seems_architecturally_singular;
 use aspecta::robot::Robot;
+use aspecta_cli::doubt::ARCHITECTURE;
 use clap::Args;
 use std::io::Write;
 use std::path::PathBuf;
@@ -24,6 +27,9 @@ impl Check {
             "{}: `{name}` is a {platform} with {legs} legs and {modes} working mode{plural}",
             self.file.display()
         )?;
+        if seems_architecturally_singular(&robot, robot.slice(&[]).ok().as_ref()) {
+            note(&format!("warning: {ARCHITECTURE}"));
+        }
         Ok(Answer::Yes)
     }
 }

@@ -6,9 +6,11 @@ use super::watch::watched;
 use crate::failure::{Answer, Failure};
 use crate::input;
 use crate::output::{Align, FORMAT_VERSION, Table, brief, json, note};
+use aspecta::kinematics::seems_architecturally_singular;
 use aspecta::motion::explore::{End, Exploration, ExploredClass, explore};
 use aspecta::paving::Budget;
 use aspecta::robot::Robot;
+use aspecta_cli::doubt::ARCHITECTURE;
 use clap::Args;
 use serde::Serialize;
 use std::io::Write;
@@ -63,6 +65,9 @@ impl Explore {
         let robot = input::robot(&self.robot)?;
         let modes = input::modes(&robot, &self.mode)?;
         let effort = budget::effort(self.budget, self.samples)?;
+        if seems_architecturally_singular(&robot, robot.slice(&[]).ok().as_ref()) {
+            note(&format!("warning: {ARCHITECTURE}"));
+        }
         let found = watched(self.threads, |control| explore(&robot, &modes, &effort, control))??;
         if found.classes.iter().any(|class| class.end == End::Cancelled) {
             note("interrupted: this is what was seen so far");

@@ -4,7 +4,8 @@ use super::planning::Analysing;
 use super::queries::Labels;
 use crate::failure::{Answer, Failure};
 use crate::input;
-use crate::output::{Align, FORMAT_VERSION, Table, brief, json};
+use crate::output::{Align, FORMAT_VERSION, Table, brief, json, plural};
+use aspecta::aspect::Count;
 use aspecta::motion::modes::ModeGraph;
 use aspecta::robot::Robot;
 use aspecta_cli::figure::graph::mode_graph;
@@ -78,12 +79,26 @@ impl Modes {
 fn print(out: &mut dyn Write, robot: &Robot, graph: &ModeGraph, degrees: bool) -> Result<(), Failure> {
     let labels = Labels::pose(robot, degrees);
     let right = |name: &str| (name.to_owned(), Align::Right);
-    let (aspects, count) = (graph.aspects.len(), graph.crossings.len());
-    if count == 0 {
-        writeln!(out, "{}: {aspects} aspects, no crossings found", robot.name)?;
+    let found = match graph.count {
+        Count { low, high: Some(high), .. } if low == high => plural(low, "aspect"),
+        Count { low, high: Some(high), .. } => format!("{low} to {high} aspects"),
+        Count { low, high: None, .. } => {
+            format!("at least {} (finer boxes, --budget, may show more)", plural(low, "aspect"))
+        }
+    };
+    let crossings = match graph.crossings.len() {
+        0 => "no crossings found".into(),
+        count => format!("{} found, each proved", plural(count, "crossing")),
+    };
+    writeln!(out, "{}: {found}, {crossings}", robot.name)?;
+    if !graph.unseen.is_empty() {
+        let unseen: Vec<String> =
+            graph.unseen.iter().map(|(mode, sign)| format!("{mode} det A {sign}")).collect();
+        writeln!(out, "no aspect was seen, and none is excluded, in {}", unseen.join(", "))?;
+    }
+    if graph.crossings.is_empty() {
         return Ok(());
     }
-    writeln!(out, "{}: {aspects} aspects, {count} crossings found, each proved", robot.name)?;
     let headings = labels.headings().map(|name| (name, Align::Right));
     let first = [right("aspects"), right("modes"), right("det A"), right("leg")];
     let mut table = Table::new(first.into_iter().chain(headings).chain([right("clearance")]));

@@ -1,6 +1,7 @@
 //! Numbered direct solutions of a joint vector, each with what it belongs to.
 
 use super::queries::{Labels, det_a_unit};
+use super::solutions::{SERIAL, mode};
 use crate::failure::Failure;
 use crate::input::Columns;
 use crate::output::{Align, Table, exact, number};
@@ -39,10 +40,13 @@ pub fn print_table(
     for Numbered { number: place, solution, group } in solutions {
         let unknown = if solution.within_limits { "undecided" } else { "beyond limits" };
         let group = group.clone().unwrap_or_else(|| unknown.into());
-        let last = [solution.mode.to_string(), number(solution.det_a), group];
+        let last = [mode(solution), number(solution.det_a), group];
         table.row([place.to_string()].into_iter().chain(pose.numbers(&solution.pose)).chain(last));
     }
     write!(out, "{table}")?;
+    if solutions.iter().any(|s| !s.solution.serial_legs.is_empty()) {
+        writeln!(out, "{SERIAL}")?;
+    }
     Ok(())
 }
 

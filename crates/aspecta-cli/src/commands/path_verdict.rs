@@ -20,13 +20,17 @@ pub fn print(
     let pose = Labels::pose(robot, path.deg);
     writeln!(out, "{}, working mode {}, {}", robot.name, check.mode, path.describe(lines))?;
     verdicts(out, robot, check)?;
-    let at = |o: &Obstacle| (describe(o, check.joined), pose.sentence(&o.pose));
+    let at = |o: &Obstacle| (describe(robot, o, check.joined), pose.sentence(&o.pose));
     for (k, obstacle) in check.obstacle.iter().chain(&check.further).enumerate() {
         let (what, near) = at(obstacle);
         writeln!(out, "{:<18}{what}\n{:<18}near {near}", if k == 0 { "obstacle" } else { "further on" }, "")?;
     }
     if let Some(clearance) = &check.clearance {
-        let blocked = if check.singularity_free == Some(true) { "" } else { ", up to the singularity" };
+        let blocked = match check.singularity_free {
+            Some(true) => "",
+            Some(false) => ", up to the singularity",
+            None => ", up to the obstacle",
+        };
         let mut print = |name: &str, least: &Least, unit: &str| -> Result<(), Failure> {
             let place = place(least.segment, least.t, check.joined);
             writeln!(out, "{name:<18}{}{unit}, {place}{blocked}", bounds(least))?;
@@ -92,12 +96,13 @@ fn ends(out: &mut dyn Write, robot: &Robot, check: &PathCheck, path: &PathArgs) 
 }
 
 /// What fails, and where along the path.
-pub fn describe(obstacle: &Obstacle, joined: Joined) -> String {
+pub fn describe(robot: &Robot, obstacle: &Obstacle, joined: Joined) -> String {
+    let failure = failure(robot, obstacle);
     if joined == Joined::None {
-        return format!("{}, sample {}", failure(obstacle), obstacle.segment);
+        return format!("{failure}, sample {}", obstacle.segment);
     }
     let (from, to) = obstacle.t;
-    format!("{}, segment {}, t = {} … {}", failure(obstacle), obstacle.segment, number(from), number(to))
+    format!("{failure}, segment {}, t = {} … {}", obstacle.segment, number(from), number(to))
 }
 
 fn place(segment: usize, t: f64, joined: Joined) -> String {

@@ -8,7 +8,7 @@ use crate::output::{Align, Format, Table, exact};
 use aspecta::aspect::DetSign;
 use aspecta::domain::{Map, Nowhere};
 use aspecta::kinematics::{Solution, WorkingMode};
-use aspecta::robot::{Limit, Robot};
+use aspecta::robot::Robot;
 use serde::Serialize;
 use std::io::Write;
 
@@ -66,13 +66,8 @@ impl<'a> Place<'a> {
 
 fn why(robot: &Robot, nowhere: &Nowhere) -> String {
     let Nowhere::Limit { leg, limit } = *nowhere else { return nowhere.to_string() };
-    let joint = match robot.legs[leg - 1].limits[limit - 1] {
-        Limit::ActuatorAngle { .. } | Limit::ActuatorLength { .. } => "actuator",
-        Limit::Elbow { .. } | Limit::SpatialElbow { .. } => "elbow",
-        Limit::BaseCone { .. } => "joint at the base",
-        Limit::PlatformCone { .. } => "joint at the platform",
-    };
-    format!("beyond the limits of leg {leg}: {joint}")
+    let joint = robot.legs[leg - 1].limits[limit - 1].joint();
+    format!("beyond the {joint} limit of leg {leg}")
 }
 
 #[derive(Serialize)]

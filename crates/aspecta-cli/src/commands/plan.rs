@@ -60,14 +60,16 @@ impl Plan {
         if robot.platform == Platform::FreeBody {
             return self.over_roadmap(out, &robot, (mode, through), [&from, &to], &options);
         }
+        let ends = [Configuration { pose: &from, mode }, Configuration { pose: &to, mode: to_mode }];
+        if let Some(refused) = planning::refused(&robot, ends, through, &options) {
+            return planning::print(out, &robot, &refused, &self.planning);
+        }
         let modes: &[WorkingMode] = if through { &[] } else { &[mode] };
-        let planned = self.planning.analysing.with(&robot, modes, |analysis, _| {
+        let planned = self.planning.with(&robot, modes, |analysis, _| {
             let mut planner = Planner::new(analysis);
             let result = if through {
                 let graph = ModeGraph::new(analysis);
-                let [start, goal] =
-                    [Configuration { pose: &from, mode }, Configuration { pose: &to, mode: to_mode }];
-                planner.route(&graph, start, goal, &options)
+                planner.route(&graph, ends[0], ends[1], &options)
             } else {
                 let plan = planner.plan(mode, &from, &to, &options);
                 plan.map(Route::from).map_err(NoRoute::from)
@@ -93,7 +95,7 @@ impl Plan {
                 robot.name
             )));
         }
-        let planned = self.planning.analysing.explore(|effort, control| {
+        let planned = self.planning.explore(|effort, control| {
             let result = plan_over_roadmap(robot, mode, ends, options, (effort, control))?;
             Ok(self.planning.moving.film(robot, None, result))
         })?;

@@ -12,8 +12,8 @@ use aspecta::aspect::{Analysis, Options, analyze};
 use aspecta::kinematics::WorkingMode;
 use aspecta::motion::crossing::Crossing;
 use aspecta::motion::explore::{self, Effort, NoWay};
-use aspecta::motion::modes::{NoRoute, Route};
-use aspecta::motion::plan::{Plan, PlanOptions, Refusal};
+use aspecta::motion::modes::{Configuration, NoRoute, Route, check_ends};
+use aspecta::motion::plan::{Plan, PlanOptions, Planner, Refusal};
 use aspecta::motion::time::{Waypoint, trajectory};
 use aspecta::motion::{Clearance, Joined, Least, PathCheck, PathOptions, ProfilePoint, check_poses};
 use aspecta::paving::{Budget, Stop};
@@ -31,9 +31,6 @@ pub struct Analysing {
     /// When to stop telling the aspects apart, as for `analyze` [default: depth=11 for 2 coordinates, depth=7 for 3]
     #[arg(long, value_parser = budget::parse, allow_hyphen_values = true)]
     budget: Option<Budget>,
-    /// Free bodies are not analysed but explored by a roadmap: how many poses it draws at most [default: 20000]. A --budget is then a time
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    samples: Option<u32>,
     /// Number of threads [default: all cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
@@ -47,12 +44,6 @@ impl Analysing {
         modes: &[WorkingMode],
         work: impl FnOnce(&Analysis, &aspecta::paving::Control<'_>) -> Result<T, Failure>,
     ) -> Result<T, Failure> {
-        if let Some(samples) = self.samples {
-            return Err(Failure::Input(format!(
-                "--samples {samples}: `{}` is no free body, its aspects are paved with boxes (--budget)",
-                robot.name
-            )));
-        }
         let budget = self.budget.unwrap_or_else(|| budget::coarse(robot.dof()));
         // In the plane all modes cost nothing to speak of, and aspects then have the numbers of `analyze`.
         let modes = if robot.dof() == 2 { &[] } else { modes };
@@ -70,14 +61,30 @@ impl Analysing {
 /// Samples of a roadmap that is to join given poses, if no number is given.
 const SAMPLES: u32 = 20_000;
 
-impl Analysing {
+impl Planning {
+    /// [`Analysing::with`], for robots that are no free bodies.
+    pub fn with<T>(
+        &self,
+        robot: &Robot,
+        modes: &[WorkingMode],
+        work: impl FnOnce(&Analysis, &aspecta::paving::Control<'_>) -> Result<T, Failure>,
+    ) -> Result<T, Failure> {
+        if let Some(samples) = self.samples {
+            return Err(Failure::Input(format!(
+                "--samples {samples}: `{}` is no free body, its aspects are paved with boxes (--budget)",
+                robot.name
+            )));
+        }
+        self.analysing.with(robot, modes, work)
+    }
+
     /// What `work` makes of a free body, with the effort its roadmaps may take.
     pub fn explore<T>(
         &self,
         work: impl FnOnce(&Effort, &aspecta::paving::Control<'_>) -> Result<T, Failure>,
     ) -> Result<T, Failure> {
-        let effort = budget::effort(self.budget, self.samples.unwrap_or(SAMPLES))?;
-        watched(self.threads, |control| work(&effort, control))?
+        let effort = budget::effort(self.analysing.budget, self.samples.unwrap_or(SAMPLES))?;
+        watched(self.analysing.threads, |control| work(&effort, control))?
     }
 }
 
@@ -97,6 +104,22 @@ pub fn plan_over_roadmap(
         Err(NoWay::Refused(refusal)) => Ok(Err(refusal.into())),
         Err(NoWay::Robot(error)) => Err(error.into()),
     }
+}
+
+/// What the ends of a motion alone tell, which is told before aspects are looked for: why there is none.
+pub fn refused(
+    robot: &Robot,
+    [start, goal]: [Configuration<'_>; 2],
+    through: bool,
+    options: &PlanOptions,
+) -> Option<Planned> {
+    let window = robot.slice(&[]).ok()?;
+    let refusal = if through {
+        check_ends(robot, &window, [start, goal]).err()?
+    } else {
+        Planner::check_ends(robot, &window, start.mode, [start.pose, goal.pose], options).err()?.into()
+    };
+    Some(Planned { result: Err(refusal), page: None })
 }
 
 /// What kind of path is wanted.
@@ -178,7 +201,10 @@ pub struct Planning {
     #[command(flatten)]
     pub moving: Moving,
     #[command(flatten)]
-    pub analysing: Analysing,
+    analysing: Analysing,
+    /// Free bodies are not analysed but explored by a roadmap: how many poses it draws at most [default: 20000]. A --budget is then a time
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    samples: Option<u32>,
     #[command(flatten)]
     pub shown: ShownArgs,
 }

@@ -108,16 +108,20 @@ fn print_table(
     if total > 0 {
         write!(out, "{}", table(robot, unknown, found, degrees))?;
     }
-    if found.iter().any(|f| f.complete == Some(false)) {
+    let open: Vec<&Found> = found.iter().filter(|f| f.complete == Some(false)).collect();
+    if !open.is_empty() {
         let reason = if robot.platform.turns_in_space() {
             "fewer complex solutions are proved than such robots have: two may be too close to be told apart, or the geometry is special"
         } else {
             "two are too close to be told apart"
         };
-        writeln!(out, "not proved to be all solutions: {reason}")?;
+        let lines: Vec<String> =
+            open.iter().filter_map(|f| f.query.line).map(|line| line.to_string()).collect();
+        let of = if lines.is_empty() { String::new() } else { format!(" of line {}", lines.join(", ")) };
+        writeln!(out, "not proved to be all solutions{of}: {reason}")?;
     }
     if found.iter().flat_map(|f| &f.solutions).any(|s| !s.serial_legs.is_empty()) {
-        writeln!(out, "0 in a mode: the leg is at a serial singularity, where its postures meet")?;
+        writeln!(out, "{SERIAL}")?;
     }
     Ok(())
 }
@@ -154,8 +158,12 @@ fn table(robot: &Robot, unknown: Unknown, found: &[Found], degrees: bool) -> Tab
     table
 }
 
+/// What a 0 in a mode means.
+pub const SERIAL: &str =
+    "0 in a mode: the leg is at a serial singularity, where its postures meet (or its joint is free)";
+
 /// The working mode, with 0 for legs at a serial singularity.
-fn mode(solution: &Solution) -> String {
+pub fn mode(solution: &Solution) -> String {
     let sign = |(leg, sign)| if solution.serial_legs.contains(&leg) { '0' } else { sign };
     (1..).zip(solution.mode.to_string().chars()).map(sign).collect()
 }

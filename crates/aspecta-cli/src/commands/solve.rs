@@ -27,7 +27,7 @@ pub fn direct(robot: &Robot, query: Query, mode: Option<WorkingMode>) -> Result<
             // One bad row does not cost the others.
             (Err(e), Some(line)) => {
                 note(&format!("line {line}: {e}"));
-                return Ok(Found { query, solutions: Vec::new(), complete: Some(false) });
+                return Ok(Found { query, solutions: Vec::new(), complete: None });
             }
         };
     solutions.retain(|s| mode.is_none_or(|m| s.mode == m));

@@ -154,12 +154,22 @@ fn print_table(out: &mut dyn Write, robot: &Robot, found: &[Found], degrees: boo
             let serial = s.serial_measures.iter().copied().fold(f64::INFINITY, f64::min);
             let numbers = [s.det_a, s.condition_a, s.condition_b, s.parallel_measure, serial].map(number);
             let line = f.query.line.unwrap_or_default().to_string();
-            let mode = s.mode.map_or("-".into(), |m| m.to_string());
+            let mode = signs(s);
             table.row([line, mode].into_iter().chain(numbers).chain([s.singularity.name().into()]));
         }
     }
     write!(out, "{table}")?;
     Ok(())
+}
+
+/// The signs of the B_jj, 0 at a serial singularity.
+fn signs(s: &kinematics::State) -> String {
+    let sign = |(leg, b): (usize, &f64)| match *b {
+        _ if s.serial_legs.contains(&leg) => '0',
+        b if b > 0.0 => '+',
+        _ => '-',
+    };
+    (1..).zip(&s.b).map(sign).collect()
 }
 
 /// One state as a paragraph, with A and B if `matrices`.
@@ -170,7 +180,7 @@ fn print_one(
     degrees: bool,
     matrices: bool,
 ) -> Result<(), Failure> {
-    let mode = s.mode.map_or("none (serial singularity)".into(), |m| m.to_string());
+    let mode = s.mode.map_or_else(|| format!("{} (0: serial singularity)", signs(s)), |m| m.to_string());
     writeln!(out, "\nworking mode  {mode}")?;
     writeln!(out, "joints        {}", Labels::joints(robot, degrees).sentence(&s.q))?;
     writeln!(

@@ -99,8 +99,10 @@ impl Time {
         if self.format.format() == Format::Json {
             json(out, &self.document(robot, check, None))?;
         }
-        let why =
-            check.obstacle.as_ref().map_or(String::new(), |o| format!(": {}", describe(o, check.joined)));
+        let why = check
+            .obstacle
+            .as_ref()
+            .map_or(String::new(), |o| format!(": {}", describe(robot, o, check.joined)));
         note(&format!("the path is not proved to be sound{why}\n`aspecta check-path` says more"));
         Ok(Answer::No)
     }

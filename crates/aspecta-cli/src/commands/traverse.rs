@@ -222,7 +222,7 @@ fn print(out: &mut dyn Write, robot: &Robot, found: &Traversability, degrees: bo
                 "yes, certified (one aspect; its number is not known at this resolution)".into()
             }
             Holds::NotWhole { pose, constraint } => {
-                format!("no, certified: {}, near {}", what(*constraint), labels.sentence(pose))
+                format!("no, certified: {}, near {}", what(robot, *constraint), labels.sentence(pose))
             }
             Holds::Undecided { pose } => format!("undecided, near {}", labels.sentence(pose)),
         };
@@ -233,12 +233,14 @@ fn print(out: &mut dyn Write, robot: &Robot, found: &Traversability, degrees: bo
 }
 
 /// What keeps a pose out.
-fn what(constraint: Option<Constraint>) -> String {
+fn what(robot: &Robot, constraint: Option<Constraint>) -> String {
     match constraint {
         None => "another aspect, or beyond the robot's window".into(),
         Some(Constraint::Det) => "the other sign of det A".into(),
         Some(Constraint::Reach(leg)) => format!("leg {} does not reach", leg + 1),
-        Some(Constraint::Limit(leg, limit)) => format!("limit {} of leg {}", limit + 1, leg + 1),
+        Some(Constraint::Limit(leg, limit)) => {
+            format!("{} limit of leg {}", robot.legs[leg].limits[limit].joint(), leg + 1)
+        }
     }
 }
 

@@ -87,7 +87,7 @@ impl Plot<'_> {
         }
         svg.close();
         if let Some(obstacle) = self.obstacle {
-            name_obstacle(&mut svg, &chart, obstacle, apart);
+            name_obstacle(&mut svg, self.robot, &chart, obstacle, apart);
         }
         chart.frame(&mut svg, title);
         legend(&mut svg, &curves, self.obstacle.is_some(), [chart.left, 426.0]);
@@ -103,15 +103,17 @@ impl Plot<'_> {
 }
 
 /// What fails at an obstacle, in words.
-pub fn failure(obstacle: &Obstacle) -> String {
+pub fn failure(robot: &Robot, obstacle: &Obstacle) -> String {
     let what = match obstacle.constraint {
         Constraint::Det if obstacle.asked == Asked::Margin => "|det Â| falls below its margin".to_owned(),
         Constraint::Reach(j) if obstacle.asked == Asked::Margin => {
             format!("|B{0}{0}|/max falls below its margin", subscript(j + 1))
         }
         Constraint::Det => "det A vanishes or changes sign (parallel singularity)".to_owned(),
-        Constraint::Reach(j) => format!("leg {} reaches its limit (serial singularity)", j + 1),
-        Constraint::Limit(j, k) => format!("leg {} meets its joint limit {}", j + 1, k + 1),
+        Constraint::Reach(j) => format!("leg {} is stretched or folded (serial singularity)", j + 1),
+        Constraint::Limit(j, k) => {
+            format!("leg {} meets its {} limit", j + 1, robot.legs[j].limits[k].joint())
+        }
     };
     if obstacle.proved { what } else { format!("not excluded: {what}") }
 }
@@ -193,12 +195,12 @@ fn band(svg: &mut Svg, chart: &Chart, obstacle: &Obstacle, apart: bool) {
 }
 
 /// Beside the band, on the side with more room, below all curves.
-fn name_obstacle(svg: &mut Svg, chart: &Chart, obstacle: &Obstacle, apart: bool) {
+fn name_obstacle(svg: &mut Svg, robot: &Robot, chart: &Chart, obstacle: &Obstacle, apart: bool) {
     let [from, to] = edges(chart, obstacle, apart);
     let bottom = chart.top + chart.height - 9.0;
     let right = from + to < 2.0 * chart.left + chart.width;
     let (x, anchor) = if right { (to + 5.0, Anchor::Start) } else { (from - 5.0, Anchor::End) };
-    svg.text([x, bottom], anchor, 11.0, &format!("fill:{OBSTACLE}"), &failure(obstacle));
+    svg.text([x, bottom], anchor, 11.0, &format!("fill:{OBSTACLE}"), &failure(robot, obstacle));
 }
 
 fn legend(svg: &mut Svg, curves: &[Curve], obstacle: bool, at: [f64; 2]) {

@@ -70,6 +70,11 @@ pub fn json(out: &mut dyn Write, value: &impl Serialize) -> Result<(), Failure> 
     Ok(())
 }
 
+/// `1 aspect`, `2 aspects`.
+pub fn plural(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+}
+
 /// A message to the user on stderr. There is nobody to tell if stderr is closed.
 pub fn note(message: &str) {
     let _ = writeln!(io::stderr(), "{message}");

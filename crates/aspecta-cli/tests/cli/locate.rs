@@ -91,7 +91,7 @@ fn files_are_not_mixed_up() {
         .output()
         .unwrap();
     let text = String::from_utf8(beyond.stdout).unwrap();
-    assert!(text.contains("beyond the limits of leg 1: actuator"), "{text}");
+    assert!(text.contains("beyond the actuator limit of leg 1"), "{text}");
     let refused = output("locate hexa --pose 0,0,-600,0,0,0");
     assert_eq!(refused.status.code(), Some(2));
 }

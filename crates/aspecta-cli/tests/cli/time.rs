@@ -63,7 +63,7 @@ fn an_unsound_path_is_refused() {
     let (code, text, complaint) = run(arguments, "4,7\n4,14\n");
     assert_eq!((code, text.as_str()), (Some(1), ""));
     assert!(
-        complaint.contains("leg 2 reaches its limit (serial singularity), segment 1, t = 0.714286"),
+        complaint.contains("leg 2 is stretched or folded (serial singularity), segment 1, t = 0.714286"),
         "{complaint}"
     );
     let (_, text, _) = run(&format!("{arguments} --json"), "4,7\n4,14\n");

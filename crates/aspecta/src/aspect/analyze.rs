@@ -8,15 +8,16 @@ use super::doubt::doubts;
 use super::earlier::{parallel_aspects, serial_aspects};
 use super::measure::{Held, Measure};
 use super::project::{q_bounds, w_bounds};
+use super::refusal::{AnalysisError, refuse};
 use super::result::*;
 use super::seams::centre;
 use super::search::Search;
 use crate::certificate::{Certificate, Claim, Join, Seam};
-use crate::kinematics::WorkingMode;
 use crate::kinematics::chart::uncharted_folds;
 use crate::kinematics::parallel_rods::parallel_rods;
+use crate::kinematics::{WorkingMode, seems_architecturally_singular};
 use crate::paving::{Budget, Control, MODES, Mark, Node, Paving, Progress, Stop};
-use crate::robot::{Actuator, Leg, Robot, SliceError, Window};
+use crate::robot::{Actuator, Leg, Robot, Window};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::time::Instant;
@@ -28,7 +29,7 @@ const HOPELESS_BOXES: u64 = 4_000_000;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
     /// How far the paving goes. Where nothing says when to stop: until the bounds meet, or [`crate::paving::MAX_BOXES`] boxes; 4 million
-    /// where [`Analysis::parallel_rods`] or [`Analysis::uncharted_folds`] keep the bounds apart.
+    /// where [`Analysis::parallel_rods`], [`Analysis::uncharted_folds`] or [`Analysis::architecturally_singular`] keep the bounds apart.
     pub budget: Budget,
     /// Coordinates to hold (index, value), as in [`Robot::slice`]: what is analysed are the poses that have these values.
     pub fix: Vec<(usize, f64)>,
@@ -38,47 +39,6 @@ pub struct Options {
     pub modes: Vec<WorkingMode>,
     /// Whether to keep the proof: [`Analysis::certificate`]. For up to three degrees of freedom.
     pub certificate: bool,
-}
-
-/// Why a robot cannot be analysed.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum AnalysisError {
-    /// The workspace, or the slice of it, has no window.
-    #[error(transparent)]
-    Slice(#[from] SliceError),
-    /// No working mode of the robot.
-    #[error("`{mode}` is not a working mode of robot `{robot}`")]
-    Mode {
-        /// Robot name.
-        robot: String,
-        /// The mode asked for.
-        mode: WorkingMode,
-    },
-    /// Too many free coordinates to be paved.
-    #[error(
-        "robot `{robot}` has {dof} degrees of freedom, {free} of them free, but aspects are computed for up to 3 free \
-         coordinates: analyse a slice, for instance `aspecta analyze {robot} --fix {hold}`"
-    )]
-    Dimension {
-        /// Robot name.
-        robot: String,
-        /// Its degrees of freedom.
-        dof: usize,
-        /// How many coordinates are not held.
-        free: usize,
-        /// Coordinates to hold and values, as the program takes them: a slice with three free coordinates.
-        hold: String,
-    },
-    /// No certificate can be made.
-    #[error(
-        "robot `{robot}` has {dof} degrees of freedom, and certificates are made and verified for up to 3: analyse it without one"
-    )]
-    Certificate {
-        /// Robot name.
-        robot: String,
-        /// Its degrees of freedom.
-        dof: usize,
-    },
 }
 
 /// Working modes (Def. 7) and generalized aspects (Def. 8) of a robot with up to three free coordinates.
@@ -131,7 +91,9 @@ fn analyze_here(robot: &Robot, options: &Options, control: &Control<'_>) -> Resu
     let modes = if options.modes.is_empty() { &all_modes } else { &options.modes };
     let parallel_rods = parallel_rods(robot, &window);
     let uncharted_folds: Vec<usize> = uncharted_folds(robot, &window).iter().map(|j| j + 1).collect();
-    let budget = bounded(options.budget, parallel_rods.is_empty() && uncharted_folds.is_empty());
+    let architecturally_singular = seems_architecturally_singular(robot, Some(&window));
+    let hopeful = parallel_rods.is_empty() && uncharted_folds.is_empty() && !architecturally_singular;
+    let budget = bounded(options.budget, hopeful);
     let mut passes: Vec<Pass> = Vec::new();
     let groups = modes.chunks(MODES);
     for (k, group) in groups.clone().enumerate() {
@@ -175,6 +137,7 @@ fn analyze_here(robot: &Robot, options: &Options, control: &Control<'_>) -> Resu
         modes: reports,
         classes,
         doubts,
+        architecturally_singular,
         parallel_rods,
         uncharted_folds,
         certificate,
@@ -187,31 +150,6 @@ fn analyze_here(robot: &Robot, options: &Options, control: &Control<'_>) -> Resu
         pavings,
     })
 }
-
-/// What cannot be analysed whatever the slice.
-fn refuse(robot: &Robot, options: &Options) -> Result<(), AnalysisError> {
-    let dof = robot.dof();
-    let held = |k: usize| options.fix.iter().any(|&(held, _)| held == k);
-    let free: Vec<usize> = (0..dof).filter(|&k| !held(k)).collect();
-    if free.len() > MOST_FREE {
-        let hold = |k: usize| {
-            let middle =
-                robot.window[k].filter(|r| !(r.0..=r.1).contains(&0.0)).map_or(0.0, |r| 0.5 * (r.0 + r.1));
-            let value = options.fix.iter().find(|&&(held, _)| held == k).map_or(middle, |&(_, value)| value);
-            format!("{}={value}", robot.platform.coordinates()[k].name)
-        };
-        let all = (0..dof).filter(|&k| held(k) || free[MOST_FREE..].contains(&k));
-        let hold = all.map(hold).collect::<Vec<_>>().join(",");
-        return Err(AnalysisError::Dimension { robot: robot.name.clone(), dof, free: free.len(), hold });
-    }
-    if options.certificate && dof > MOST_FREE {
-        return Err(AnalysisError::Certificate { robot: robot.name.clone(), dof });
-    }
-    Ok(())
-}
-
-/// Most coordinates that can be free.
-const MOST_FREE: usize = 3;
 
 /// What one pass found of its modes.
 struct Pass {

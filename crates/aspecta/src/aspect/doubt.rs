@@ -82,9 +82,9 @@ fn undecided<const D: usize, const N: usize>(
             note(format!("H_{}", j + 1), legs[j].closure.reach);
         }
         let at = legs[j].limited(leg);
-        for (k, limit) in leg.limits.iter().enumerate() {
+        for limit in &leg.limits {
             let sh = heights[j][usize::from(class.mode.sign(j) < 0)];
-            note(format!("limit {} of leg {}", k + 1, j + 1), margin(limit, &at, sh, &placement));
+            note(format!("{} limit of leg {}", limit.joint(), j + 1), margin(limit, &at, sh, &placement));
         }
     }
     names

@@ -17,6 +17,7 @@ mod doubt;
 mod earlier;
 mod measure;
 mod project;
+mod refusal;
 mod result;
 mod saddle;
 mod scale;
@@ -26,8 +27,9 @@ mod summit;
 
 pub(crate) use components::UnionFind;
 
-pub use analyze::{AnalysisError, Options, analyze};
+pub use analyze::{Options, analyze};
 pub use measure::{Held, Measure, Unit};
+pub use refusal::AnalysisError;
 pub use result::{
     Analysis, Aspect, AspectClass, Cell, Count, DetSign, Doubt, DoubtKind, EarlierAspects, EarlierDomain,
     FORMAT_VERSION, LegReport, ModeReport, Place, Reachable, Run, Sample,

@@ -38,6 +38,9 @@ pub struct Analysis {
     pub classes: Vec<AspectClass>,
     /// What keeps the bounds apart, where they do not meet; empty if they do.
     pub doubts: Vec<Doubt>,
+    /// Whether det A vanishes at all poses that were drawn at random ([`seems_architecturally_singular`], numerical): then nothing is
+    /// ever decided.
+    pub architecturally_singular: bool,
     /// Surfaces on which det A vanishes to higher order: a reason for doubts that no refinement removes.
     pub parallel_rods: Vec<ParallelRods>,
     /// Legs (from 1) of a platform that turns about a point whose joint can come onto the motor's axis, where the motor is free: round these orientations the
@@ -191,7 +194,7 @@ pub struct Doubt {
     pub place: Vec<(f64, f64)>,
     /// The leg (from 1) in whose own coordinates `place` is.
     pub fold: Option<usize>,
-    /// The functions whose signs are not decided there: `det A`, `H_1` (serial singularity of leg 1), `limit 1 of leg 2`.
+    /// The functions whose signs are not decided there: `det A`, `H_1` (serial singularity of leg 1), `actuator limit of leg 2`.
     pub undecided: Vec<String>,
 }
 

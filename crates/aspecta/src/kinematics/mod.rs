@@ -1,5 +1,6 @@
 //! Inverse and direct geometric models, Jacobians and singularities (section 2 of the paper).
 
+mod architecture;
 pub mod chart;
 pub(crate) mod condition;
 pub mod demand;
@@ -17,6 +18,7 @@ pub mod placement;
 mod singularity;
 mod working_mode;
 
+pub use architecture::seems_architecturally_singular;
 pub use direct::{DirectSolutions, Poses};
 pub use inverse::LegSolutions;
 pub use jacobian::Jacobians;

@@ -6,6 +6,7 @@ pub mod crossing;
 pub mod explore;
 pub mod follow;
 pub mod modes;
+mod named;
 pub mod plan;
 mod search;
 mod spline;

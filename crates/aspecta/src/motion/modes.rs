@@ -5,10 +5,10 @@ use super::plan::refusal::{aspect_at, sign_at, word};
 use super::plan::{End, Plan, PlanOptions, Planner, Refusal};
 use super::time::{Piece, Waypoint};
 use super::{between, go_on_from};
-use crate::aspect::{Analysis, DetSign};
+use crate::aspect::{Analysis, Count, DetSign};
 use crate::kinematics::WorkingMode;
 use crate::kinematics::demand::Margins;
-use crate::robot::Robot;
+use crate::robot::{Robot, Window};
 use serde::Serialize;
 use std::collections::VecDeque;
 
@@ -17,6 +17,10 @@ use std::collections::VecDeque;
 pub struct ModeGraph {
     /// The aspects.
     pub aspects: Vec<GraphAspect>,
+    /// How many aspects the robot has. Numbers of aspects ([`GraphAspect::id`]) are those of this analysis; a finer one may see more.
+    pub count: Count,
+    /// Modes and signs of det A in which no aspect was seen, and none is excluded.
+    pub unseen: Vec<(WorkingMode, DetSign)>,
     /// The crossings found (each proved): at most one between two aspects and leg, that with the most clearance found.
     pub crossings: Vec<Crossing>,
     /// Which aspects can be reached from one another: sets of [`GraphAspect::id`], ascending. That the members of a set are joined is
@@ -60,8 +64,14 @@ impl ModeGraph {
                 is_one: analysis.is_one(aspect.id),
             })
         });
-        let mut graph =
-            Self { aspects: entries.collect(), crossings: crossings(analysis), groups: Vec::new() };
+        let unseen = analysis.classes.iter().filter(|class| class.low == 0 && class.high != Some(0));
+        let mut graph = Self {
+            aspects: entries.collect(),
+            count: analysis.aspects.clone(),
+            unseen: unseen.map(|class| (class.mode, class.det_a)).collect(),
+            crossings: crossings(analysis),
+            groups: Vec::new(),
+        };
         let mut left: Vec<usize> = graph.aspects.iter().map(|aspect| aspect.id).collect();
         while let Some(&first) = left.first() {
             let group: Vec<usize> =
@@ -230,22 +240,32 @@ impl Planner<'_> {
     /// The aspects of both ends.
     fn aspects_of(&self, start: Configuration<'_>, goal: Configuration<'_>) -> Result<[usize; 2], NoRoute> {
         let analysis = self.analysis();
-        let sign = |end, at: Configuration<'_>| {
-            if !analysis.classes.iter().any(|class| class.mode == at.mode) {
-                return Err(Refusal::Mode(at.mode));
-            }
-            sign_at(&analysis.robot, &analysis.window, at.mode, (end, at.pose))
-        };
-        let signs = [sign(End::Start, start)?, sign(End::Goal, goal)?];
-        if signs[0] != signs[1] {
-            return Err(NoRoute::OppositeSigns(signs[0]));
+        let unknown = |at: &Configuration<'_>| analysis.classes.iter().all(|class| class.mode != at.mode);
+        if let Some(at) = [start, goal].iter().find(|at| unknown(at)) {
+            return Err(Refusal::Mode(at.mode).into());
         }
+        let sign = check_ends(&analysis.robot, &analysis.window, [start, goal])?;
         let aspect = |end, at: Configuration<'_>| {
-            let class = analysis.class_of(at.mode, signs[0]).ok_or(Refusal::Mode(at.mode))?;
+            let class = analysis.class_of(at.mode, sign).ok_or(Refusal::Mode(at.mode))?;
             aspect_at(analysis, class, at.pose).ok_or(NoRoute::Unknown(end))
         };
         Ok([aspect(End::Start, start)?, aspect(End::Goal, goal)?])
     }
+}
+
+/// What the ends of a motion through working modes tell before any aspects are known: that both lie in a class, and the sign of det A, which is the
+/// same at both.
+///
+/// # Errors
+/// [`NoRoute`]: what is wrong with an end, or that signs of det A differ, which proves that there is no motion.
+pub fn check_ends(
+    robot: &Robot,
+    window: &Window,
+    [start, goal]: [Configuration<'_>; 2],
+) -> Result<DetSign, NoRoute> {
+    let sign = |end, at: Configuration<'_>| sign_at(robot, window, at.mode, (end, at.pose));
+    let signs = [sign(End::Start, start)?, sign(End::Goal, goal)?];
+    if signs[0] == signs[1] { Ok(signs[0]) } else { Err(NoRoute::OppositeSigns(signs[0])) }
 }
 
 /// Samples of a segment, and of each half of a crossing.

@@ -14,6 +14,7 @@ use crate::kinematics::modal::Constraint;
 use crate::kinematics::path::{Along, Curve, along};
 use crate::kinematics::placement::Placement;
 use crate::kinematics::{KinematicsError, WorkingMode, for_platform};
+use crate::motion::named;
 use crate::num::{Interval, Scalar, Slope};
 use crate::robot::{Robot, Window};
 use serde::Serialize;
@@ -51,6 +52,7 @@ pub enum Holds {
         /// The pose.
         pose: Vec<f64>,
         /// What fails there; `None` if it lies in another aspect, or beyond the window that the robot file sets.
+        #[serde(serialize_with = "named::if_any")]
         constraint: Option<Constraint>,
     },
     /// Neither could be proved.

@@ -177,6 +177,18 @@ pub fn point(p: [f64; 3]) -> [Interval; 3] {
     p.map(Interval::decimal)
 }
 
+impl Limit {
+    /// The joint it limits, as robot files call it.
+    pub fn joint(&self) -> &'static str {
+        match self {
+            Self::ActuatorAngle { .. } | Self::ActuatorLength { .. } => "actuator",
+            Self::Elbow { .. } | Self::SpatialElbow { .. } => "elbow",
+            Self::BaseCone { .. } => "base-joint",
+            Self::PlatformCone { .. } => "platform-joint",
+        }
+    }
+}
+
 impl Leg {
     /// A revolute-driven leg in the plane: crank `l` turning from the x axis, rod `m`.
     pub fn revolute(anchor: [f64; 2], attachment: [f64; 2], l: f64, m: f64) -> Self {

@@ -77,7 +77,7 @@ fn summary(motion: &Motion<'_>, every: usize) -> Markup {
         ", working " @if modes.len() == 1 { "mode " } @else { "modes " } (modes.join(", then ")) ". "
         @if every > 1 { "One of " (every) " samples is shown. " }
         @if let Some(obstacle) = motion.obstacle {
-            strong { "In segment " (obstacle.segment) ": " (failure(obstacle)) "." }
+            strong { "In segment " (obstacle.segment) ": " (failure(motion.robot, obstacle)) "." }
         }
     }
 }

@@ -19,6 +19,7 @@ use crate::kinematics::WorkingMode;
 use crate::kinematics::demand::{Demand, Margins};
 use crate::kinematics::modal::Constraint;
 use crate::kinematics::path::{Along, Curve, along};
+use crate::motion::named;
 use crate::motion::units;
 use crate::robot::Robot;
 use clearance::{PoseStretch, clearance};
@@ -124,7 +125,8 @@ pub struct Obstacle {
     pub t: (f64, f64),
     /// Pose at the middle of the stretch; of joint vectors, at its start.
     pub pose: Vec<f64>,
-    /// What fails there.
+    /// What fails there; in JSON `{"kind": "det A"}`, `{"kind": "reach", "leg"}` or `{"kind": "limit", "leg", "limit"}`, counted from 1.
+    #[serde(serialize_with = "named::constraint")]
     pub constraint: Constraint,
     /// Whether the failure is proved (else undecided).
     pub proved: bool,

@@ -108,6 +108,20 @@ impl<'a> Planner<'a> {
         Self { analysis, roadmaps: analysis.classes.iter().map(|_| Vec::new()).collect() }
     }
 
+    /// What the ends of a path in `mode` tell before any aspects are known: the sign of det A at both.
+    ///
+    /// # Errors
+    /// [`Refusal`]: what is wrong with an end, or that signs of det A differ, which proves that there is no path.
+    pub fn check_ends(
+        robot: &Robot,
+        window: &Window,
+        mode: WorkingMode,
+        ends: [&[f64]; 2],
+        options: &PlanOptions,
+    ) -> Result<DetSign, Refusal> {
+        refusal::common_sign(robot, window, mode, ends, options.margins)
+    }
+
     /// What it plans over.
     pub fn analysis(&self) -> &'a Analysis {
         self.analysis
@@ -129,7 +143,7 @@ impl<'a> Planner<'a> {
         if !analysis.classes.iter().any(|class| class.mode == mode) {
             return Err(Refusal::Mode(mode));
         }
-        let det_a = refusal::common_sign(robot, window, mode, [start, goal], options.margins)?;
+        let det_a = Self::check_ends(robot, window, mode, [start, goal], options)?;
         let (class, aspect) = refusal::common_aspect(analysis, mode, det_a, [start, goal])?;
         let demand = Demand { margins: options.margins, ..Demand::class(mode, det_a.factor()) };
         let cost = Cost::new(robot, window, &demand, options.weight);

@@ -51,14 +51,16 @@ pub enum Refusal {
         leg: usize,
     },
     /// A joint limit forbids it (proved).
-    #[error("the {end} is beyond limit {limit} of leg {leg}: proved")]
+    #[error("the {end} is beyond the {joint} limit of leg {leg}: proved")]
     BeyondLimit {
         /// Which end.
         end: End,
         /// The leg, from 1.
         leg: usize,
-        /// Its limit, from 1.
+        /// Its limit, from 1,
         limit: usize,
+        /// and the joint that it limits.
+        joint: &'static str,
     },
     /// On the boundary of an aspect, or too near to it to tell.
     #[error("the {0} is singular or on a joint limit, or too near to tell which side it is on")]
@@ -183,7 +185,8 @@ pub(in crate::motion) fn sign_at(
                 return Err(Refusal::OutOfReach { end, leg: leg + 1 });
             }
             Along::Outside { constraint: Constraint::Limit(leg, limit), .. } => {
-                return Err(Refusal::BeyondLimit { end, leg: leg + 1, limit: limit + 1 });
+                let joint = robot.legs[leg].limits[limit].joint();
+                return Err(Refusal::BeyondLimit { end, leg: leg + 1, limit: limit + 1, joint });
             }
             _ => {}
         }
