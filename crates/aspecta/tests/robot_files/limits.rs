@@ -97,7 +97,7 @@ fn angles_without_unit_and_lengths_with_one() {
     );
     assert_starts(
         &says(SPACE, "[1, 7]", "[-1, 7]"),
-        "legs[3].limits.actuator[1] = -1: a length must be positive",
+        "legs[3].limits.actuator[1] = -1: the length of a strut is never negative; the minimum must be at least 0",
     );
 }
 
@@ -106,8 +106,14 @@ fn limits_on_joints_a_leg_does_not_have() {
     let with = |limit: &str| says(SPACE, "actuator = [1, 7]", limit);
     assert_starts(
         &with("elbow = { deg = [5, 175] }"),
-        "legs[3].limits.elbow: only a `revolute` leg has an elbow",
+        "legs[3].limits.elbow: only a `revolute` leg has an elbow, between crank and rod: limit `base-joint` or",
     );
+    let spherical = SPHERE.replacen(
+        "distal = { deg = 90 } }",
+        "distal = { deg = 90 } }\nlimits = { elbow = { deg = [5, 175] } }",
+        1,
+    );
+    assert!(says(&spherical, "", "").ends_with("an elbow, between crank and rod: limit `actuator`"));
     assert_starts(
         &with("base-joint = { deg = [5, 175] }"),
         "legs[3].limits.base-joint: in space give a cone, { axis = [x, y, z], within",

@@ -31,9 +31,9 @@ fn columns_count_characters_and_lines_may_end_as_on_windows() {
 #[test]
 fn unknown_keys() {
     let message = says(PLANE, "crank", "crnak");
-    assert_starts(
-        &message,
-        "legs[1].actuator.crnak: unknown key (did you mean `crank`?); the keys here are `kind`, `crank`, `rod`",
+    assert_eq!(
+        message,
+        "legs[1].actuator.crnak: unknown key (did you mean `crank`?); the keys here are `kind`, `crank`, `rod`"
     );
     assert_starts(&says(PLANE, "anchor", "ancor"), "legs[1].ancor: unknown key (did you mean `anchor`?)");
     assert_starts(
@@ -44,6 +44,43 @@ fn unknown_keys() {
     assert_starts(&message, "windw: unknown key (did you mean `window`?)");
     let message = says(SPACE, "actuator = [1, 7]", "actuator = [1, 7], elbows = 3");
     assert_starts(&message, "legs[3].limits.elbows: unknown key (did you mean `elbow`?)");
+}
+
+/// Of the keys of actuators those that the kind takes, in the plane or in space; all if the kind is not known.
+#[test]
+fn unknown_keys_of_an_actuator() {
+    let known = |text: &str, from: &str, to: &str| {
+        let message = says(text, from, to);
+        message.split_once("; the keys here are ").expect(&message).1.to_owned()
+    };
+    assert_eq!(known(SPACE, "crank =", "krank ="), "`kind`, `crank`, `rod`, `axis`, `zero`");
+    assert_eq!(known(SPACE, "direction =", "crank = 1, dir ="), "`kind`, `rod`, `direction`");
+    assert_eq!(known(SPACE, "\"strut\"", "\"strut\", length = 3"), "`kind`");
+    assert_eq!(known(SPHERE, "distal =", "dist ="), "`kind`, `axis`, `zero`, `proximal`, `distal`");
+    let all = "`kind`, `crank`, `rod`, `direction`, `axis`, `zero`, `proximal`, `distal`";
+    assert_eq!(known(SPACE, "kind = \"strut\"", "kin = \"strut\""), all);
+    assert_eq!(known(SPACE, "kind = \"strut\"", "a = 3, kind = \"ram\""), all);
+}
+
+#[test]
+fn words_that_name_nothing_or_break_lines() {
+    for bad in ["\"\"", "\" \""] {
+        let message = says(PLANE, "\"test\"", bad);
+        assert_starts(&message, &format!("name = {bad}: the name is empty; give the robot a short name"));
+    }
+    for bad in ["\"a\\nb\"", "\"a\\tb\"", "\"\\u001b[31m\""] {
+        let message = says(PLANE, "\"test\"", bad);
+        assert_starts(
+            &message,
+            &format!("name = {bad}: a line break, tab or other control character; write"),
+        );
+    }
+    assert_starts(&says(PLANE, "\"test\"", "\"\"\"a\nb\"\"\""), "name: a line break");
+    for key in ["title", "source", "length-unit"] {
+        let line = format!("{key} = \"m\\nm\"");
+        let message = says(PLANE, "[[legs]]", &format!("{line}\n\n[[legs]]"));
+        assert_starts(&message, &format!("{line}: a line break"));
+    }
 }
 
 #[test]
@@ -82,6 +119,8 @@ fn missing_keys() {
         "legs[1].actuator: missing key `kind`: one of `revolute`",
     );
     assert_starts(&says("", "", ""), "missing key `name`");
+    // The first key is not to blame.
+    assert_starts(&says("", "", "length-unit = \"mm\"\n"), "missing key `name`");
 }
 
 #[test]
@@ -160,7 +199,10 @@ fn files_that_are_not_toml() {
         "{message}"
     );
     assert!(message.contains("7 | actuator = { kind = \"revolute\", crank = 8"), "{message}");
-    assert!(says(PLANE, "name = \"test\"", "name = \"a\"\nname = \"b\"").contains("duplicate key"));
+    let twice = says(PLANE, "name = \"test\"", "name = \"a\"\nname = \"b\"");
+    assert_eq!(twice, "`name` is given a second time; keep one of them");
+    let twice = says(PLANE, "crank = 8", "crank = 8, crank = 9");
+    assert_eq!(twice, "`crank` is given a second time; keep one of them");
     assert!(says(PLANE, "crank = 8", "crank = 8 mm").contains("not TOML"));
 }
 

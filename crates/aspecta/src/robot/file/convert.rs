@@ -3,6 +3,7 @@
 use super::error::Problem;
 use super::format::{ActuatorTable, Angle, At, Kind, LegTable, Number, Pair, Range, RobotFile, Unit, Vector};
 use super::locate::{Fault, hint};
+use super::words;
 use crate::num::{Interval, Scalar};
 use crate::robot::frame::{crank_frame, product, rail_frame, sum, unit};
 use crate::robot::{Actuator, BASE_FRAME, Frame, Leg, Platform, Robot, RobotError, check_legs};
@@ -28,10 +29,17 @@ pub(super) fn robot(file: &RobotFile, text: &str) -> Result<Robot, Fault> {
     let kinds: Vec<_> = file.legs.iter().map(|l| l.value.actuator.value.kind.value.name()).collect();
     check_legs(platform, &kinds).map_err(|e| misfit(file, e))?;
     let legs = file.legs.iter().map(|leg| context.leg(leg)).collect::<Result<Vec<_>, _>>()?;
-    let mut robot = Robot::new(&file.name, platform, legs).map_err(|e| misfit(file, e))?;
-    robot.title.clone_from(&file.title);
-    robot.source.clone_from(&file.source);
-    robot.length_unit.clone_from(&file.length_unit);
+    let mut robot = Robot::new(words::name(&file.name)?, platform, legs).map_err(|e| misfit(file, e))?;
+    let words = [
+        (&mut robot.title, &file.title),
+        (&mut robot.source, &file.source),
+        (&mut robot.length_unit, &file.length_unit),
+    ];
+    for (field, given) in words {
+        if let Some(text) = given {
+            *field = words::line(text)?.to_owned();
+        }
+    }
     for (name, range) in file.window.entries() {
         if let Some(range) = range {
             let (k, bounds) = context.window(name, range)?;

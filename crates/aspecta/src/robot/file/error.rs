@@ -1,5 +1,6 @@
 //! What can be wrong with a robot file, said so that the reader can mend it.
 
+use super::locate::hint;
 use crate::robot::RobotError;
 use std::fmt;
 
@@ -80,6 +81,15 @@ pub enum Problem {
     /// Not TOML.
     #[error("this is not TOML: {0}; if the file looks right up to here, it may have been cut off")]
     Syntax(String),
+    /// A key that stands twice in a table.
+    #[error("`{0}` is given a second time; keep one of them")]
+    DuplicateKey(String),
+    /// A name without letters.
+    #[error("the name is empty; {}", hint("name"))]
+    Nameless,
+    /// Words with line breaks and the like.
+    #[error("a line break, tab or other control character; write it in one line, with blanks")]
+    NotOneLine,
     /// A key no robot file has here.
     #[error("unknown key{}; the keys here are {}", suggest(.closest), list(.known))]
     UnknownKey {
@@ -137,6 +147,9 @@ pub enum Problem {
     /// A length that is zero or negative.
     #[error("a length must be positive; directions and signs belong into `axis`, `zero` or `direction`")]
     NotPositive,
+    /// A limit that a strut's length cannot fall below.
+    #[error("the length of a strut is never negative; the minimum must be at least 0")]
+    NegativeMinimum,
     /// A length that is too short or too long.
     #[error(
         "lengths must lie within [1e-6, 1e6] and coordinates within ±1e6: the intervals behind every proof stay \

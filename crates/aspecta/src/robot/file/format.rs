@@ -147,16 +147,15 @@ pub(super) struct Vector(#[schemars(length(min = 2, max = 3))] pub Vec<Number>);
 #[schemars(title = "Aspecta robot file")]
 pub(super) struct RobotFile {
     /// Short name, as on the command line.
-    pub name: String,
+    #[schemars(length(min = 1))]
+    pub name: At<String>,
     /// One line that says what the robot is.
-    #[serde(default)]
-    pub title: String,
-    /// Where the figures come from.
-    #[serde(default)]
-    pub source: String,
+    pub title: Option<At<String>>,
+    /// Where the figures come from, in one line.
+    pub source: Option<At<String>>,
     /// Unit of all lengths, shown in tables and figures; nothing is converted.
-    #[serde(default = "unit")]
-    pub length_unit: String,
+    #[schemars(extend("default" = "unit"))]
+    pub length_unit: Option<At<String>>,
     /// What the platform can do; fixes the pose coordinates and the number of legs.
     pub platform: At<Platform>,
     /// The legs, in the order of the joint coordinates.
@@ -165,10 +164,6 @@ pub(super) struct RobotFile {
     /// Bounds on pose coordinates, within what the legs reach.
     #[serde(default)]
     pub window: WindowTable,
-}
-
-fn unit() -> String {
-    "unit".into()
 }
 
 /// A leg: it ties the point A of the base to the point C of the platform.

@@ -45,7 +45,7 @@ impl Context<'_> {
             (Range::Length(pair), Kind::Prismatic | Kind::Strut) => {
                 let (min, max) = self.ordered(pair, &range.span)?;
                 if kind == Kind::Strut && min.lo < 0.0 {
-                    return Err(Fault::new(&pair.0[0].span, Problem::NotPositive));
+                    return Err(Fault::new(&pair.0[0].span, Problem::NegativeMinimum));
                 }
                 Ok(Limit::ActuatorLength { min, max })
             }
@@ -60,9 +60,12 @@ impl Context<'_> {
     fn elbow(&self, range: &At<Angle<Pair>>, kind: Kind) -> Result<Limit, Fault> {
         let Angle { unit, .. } = range.value;
         if kind != Kind::Revolute {
-            let reason = "only a `revolute` leg has an elbow, between crank and rod: limit `base-joint` or \
-                          `platform-joint`";
-            return Err(Fault::new(&range.span, out_of_place(reason)));
+            let others = match kind {
+                Kind::Spherical => "`actuator`",
+                _ => "`base-joint` or `platform-joint`",
+            };
+            let reason = format!("only a `revolute` leg has an elbow, between crank and rod: limit {others}");
+            return Err(Fault::new(&range.span, out_of_place(&reason)));
         }
         let (min, max) = self.turn(&range.value, &range.span)?;
         if self.platform.space() == 2 {

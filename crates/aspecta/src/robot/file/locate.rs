@@ -1,6 +1,8 @@
 //! From a place in the text (a span of bytes) to line, column, key and value.
 
 use super::error::{FileError, Mistake, Problem, closest};
+use super::format::Kind;
+use crate::robot::Platform;
 use std::ops::Range as Span;
 use toml::de::{DeTable, DeValue};
 
@@ -18,12 +20,16 @@ impl Fault {
 
     /// What serde or the TOML parser says, in the words of robot files. Their messages name keys and values
     /// in backquotes; the tests of the messages hold that to be so.
-    pub fn from_serde(error: &toml::de::Error, text: &str) -> Self {
+    pub fn from_serde(error: &toml::de::Error, text: &str, tree: &DeTable<'_>) -> Self {
         let message = error.message();
+        let span = error.span().unwrap_or(text.len()..text.len());
         let mut quoted = message.split('`').skip(1).step_by(2).map(str::to_owned);
         let problem = if message.starts_with("unknown field") || message.starts_with("unknown variant") {
             let wrong = quoted.next().unwrap_or_default();
-            let known: Vec<_> = quoted.collect();
+            let mut known: Vec<_> = quoted.collect();
+            if let Some(taken) = keys_taken(tree, &span) {
+                known.retain(|key| key == "kind" || taken.contains(&key.as_str()));
+            }
             let closest = closest(&wrong, known.iter().map(String::as_str));
             match message.starts_with("unknown field") {
                 true => Problem::UnknownKey { closest, known },
@@ -36,12 +42,16 @@ impl Fault {
             let reason = message.trim_start_matches("invalid type: ").trim_start_matches("invalid value: ");
             Problem::WrongType(reason.replace("a sequence", "a list in brackets"))
         };
-        Self { span: error.span().unwrap_or(text.len()..text.len()), problem }
+        Self { span, problem }
     }
 
     pub fn from_parser(error: &toml::de::Error, text: &str) -> Self {
         let span = error.span().unwrap_or(text.len()..text.len());
-        Self { span, problem: Problem::Syntax(error.message().to_owned()) }
+        let problem = match error.message() {
+            "duplicate key" => Problem::DuplicateKey(text.get(span.clone()).unwrap_or_default().to_owned()),
+            other => Problem::Syntax(other.to_owned()),
+        };
+        Self { span, problem }
     }
 
     /// The message for people.
@@ -91,6 +101,19 @@ pub(super) fn hint(key: &str) -> &'static str {
     }
 }
 
+/// The keys that the actuator with a key at `span` takes beside `kind`, if there is one and its kind is known.
+fn keys_taken(tree: &DeTable<'_>, span: &Span<usize>) -> Option<&'static [&'static str]> {
+    let word = |table: &DeTable<'_>, key: &str| Some(table.get(key)?.get_ref().as_str()?.to_owned());
+    let legs = tree.get("legs")?.get_ref().as_array()?;
+    let mut actuators = legs.iter().filter_map(|leg| leg.get_ref().get("actuator")?.get_ref().as_table());
+    let actuator = actuators.find(|table| table.keys().any(|key| key.span() == *span))?;
+    let name = word(actuator, "kind")?;
+    let kind = Kind::ALL.into_iter().find(|kind| kind.name() == name)?;
+    let platform = word(tree, "platform").unwrap_or_default();
+    let space = Platform::ALL.into_iter().find(|p| p.name() == platform).map_or(3, Platform::space);
+    Some(kind.keys(space))
+}
+
 /// The key at `span`, as in `legs[2].actuator.crank`, and whether `span` is that of its value (rather than
 /// of the key or of a table's header).
 fn key_at(tree: &DeTable<'_>, span: &Span<usize>) -> (String, bool) {
@@ -108,7 +131,8 @@ struct Found {
 
 impl Found {
     fn offer(&mut self, candidate: Span<usize>, span: &Span<usize>, key: &str, is_value: bool) {
-        let holds = candidate.start <= span.start && span.end <= candidate.end;
+        // The file as a whole has an empty span: no key holds it, whichever comes first.
+        let holds = !span.is_empty() && candidate.start <= span.start && span.end <= candidate.end;
         // On a tie the deeper one, which comes later, is meant.
         if holds && candidate.len() <= self.length {
             *self = Self { length: candidate.len(), key: key.to_owned(), is_value };

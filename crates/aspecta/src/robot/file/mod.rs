@@ -7,6 +7,7 @@ mod format;
 mod limits;
 mod locate;
 mod schema;
+mod words;
 
 pub use error::{FileError, Mistake, Problem};
 
@@ -31,7 +32,7 @@ impl Robot {
     pub fn from_toml(text: &str, file: &str) -> Result<Self, FileError> {
         let tree = DeTable::parse(text).map_err(|e| Fault::from_parser(&e, text).locate(file, text, None))?;
         format::RobotFile::deserialize(Deserializer::from(tree.clone()))
-            .map_err(|e| Fault::from_serde(&e, text))
+            .map_err(|e| Fault::from_serde(&e, text, tree.get_ref()))
             .and_then(|table| convert::robot(&table, text))
             .map_err(|fault| fault.locate(file, text, Some(tree.get_ref())))
     }

@@ -1,0 +1,21 @@
+//! Names and other words of a robot file, which are printed in messages, tables and headings.
+
+use super::error::Problem;
+use super::format::At;
+use super::locate::Fault;
+
+/// A name: something to call the robot by.
+pub(super) fn name(text: &At<String>) -> Result<&str, Fault> {
+    if text.value.trim().is_empty() {
+        return Err(Fault::new(&text.span, Problem::Nameless));
+    }
+    line(text)
+}
+
+/// Words in one line: no control characters, which would break a table or a terminal.
+pub(super) fn line(text: &At<String>) -> Result<&str, Fault> {
+    match text.value.contains(char::is_control) {
+        true => Err(Fault::new(&text.span, Problem::NotOneLine)),
+        false => Ok(&text.value),
+    }
+}
