@@ -3,7 +3,7 @@
 use super::queries::Labels;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns, Row, Rows};
-use crate::output::{FORMAT_VERSION, Format, FormatArgs, exact};
+use crate::output::{FORMAT_VERSION, Format, FormatArgs, exact, json_line};
 use aspecta::kinematics::WorkingMode;
 use aspecta::motion::follow::{Follower, InverseFollower, JointStep, Refusal, Step};
 use aspecta::robot::Robot;
@@ -213,10 +213,7 @@ impl Printer {
         let (pose, q) = if self.inverse { (given, found) } else { (found, given) };
         let record = Record { format_version: FORMAT_VERSION, line: row.line, pose, q, outcome };
         match self.format {
-            Format::Json => {
-                serde_json::to_writer(&mut *out, &record)?;
-                writeln!(out)?;
-            }
+            Format::Json => json_line(out, &record)?,
             Format::Csv => writeln!(out, "{}", self.csv(&record))?,
             Format::Table => match (&record.outcome, found) {
                 (Outcome::Certified { mode, mode_kept, regular, within_limits, .. }, Some(found)) => {

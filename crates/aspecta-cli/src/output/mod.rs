@@ -1,13 +1,16 @@
 //! What people, scripts and spreadsheets read.
 
 mod table;
+mod zeros;
 
 pub use table::{Align, Table};
 
 use crate::failure::Failure;
 use clap::Args;
 use serde::Serialize;
+use serde_json::ser::{CompactFormatter, Formatter, PrettyFormatter, Serializer};
 use std::io::{self, Write};
+use zeros::UnsignedZeros;
 
 /// Version of the JSON of `ik`, `fk`, `state`, `check-path` and `time`; raised when a field changes its meaning
 /// or goes away.
@@ -65,7 +68,16 @@ impl FormatArgs {
 
 /// Writes `value` as one JSON document.
 pub fn json(out: &mut dyn Write, value: &impl Serialize) -> Result<(), Failure> {
-    serde_json::to_writer_pretty(&mut *out, value)?;
+    json_in(out, value, PrettyFormatter::new())
+}
+
+/// Writes `value` as JSON in one line.
+pub fn json_line(out: &mut dyn Write, value: &impl Serialize) -> Result<(), Failure> {
+    json_in(out, value, CompactFormatter)
+}
+
+fn json_in(out: &mut dyn Write, value: &impl Serialize, layout: impl Formatter) -> Result<(), Failure> {
+    value.serialize(&mut Serializer::with_formatter(&mut *out, UnsignedZeros(layout)))?;
     writeln!(out)?;
     Ok(())
 }
@@ -83,7 +95,11 @@ pub fn note(message: &str) {
 /// A number for people: six decimals, or six digits and a power of ten where these would not show it.
 pub fn number(x: f64) -> String {
     let size = x.abs();
-    if size == 0.0 || (1e-3..1e7).contains(&size) { format!("{x:.6}") } else { format!("{x:.5e}") }
+    if size == 0.0 || (1e-3..1e7).contains(&size) {
+        format!("{:.6}", unsigned(x))
+    } else {
+        format!("{x:.5e}")
+    }
 }
 
 /// A number for people, in five digits.
@@ -101,5 +117,10 @@ pub fn brief(x: f64) -> String {
 
 /// A number for machines: the shortest that reads back as the same.
 pub fn exact(x: f64) -> String {
-    format!("{x:?}")
+    format!("{:?}", unsigned(x))
+}
+
+/// The number with a zero that has no sign: nobody asks from which side it is one.
+fn unsigned(x: f64) -> f64 {
+    x + 0.0
 }

@@ -50,6 +50,7 @@ fn lists_that_are_not_numbers() {
     refused("fk five-bar --q --json", &["--q: number 1 of `--json`"]);
     refused("ik five-bar --pose nan,2", &["pose coordinate 1 is NaN: give a finite number"]);
     refused("fk five-bar --q 1,-inf", &["joint coordinate 2 is -inf: give a finite number"]);
+    refused("fk five-bar --q 1e300,1", &["joint coordinate 1 is 1e300: beyond"]);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! What people read.
 
-use crate::stdout;
+use crate::{aspecta, stdout};
 
 #[test]
 fn tables_have_headings_with_units_and_no_colours() {
@@ -21,6 +21,18 @@ fn degrees_are_shown_on_request() {
     assert!(text.contains("q1 = 90.000000 deg"), "{text}");
     let text = stdout("ik 3-rrr --pose -15.468,0.781,0.073 --mode +++");
     assert!(text.contains("phi = 0.073000 rad"), "{text}");
+}
+
+#[test]
+fn zeros_have_no_sign() {
+    let text = stdout("ik linear-delta --pose -0.0,0,-0.0");
+    assert!(text.contains("x = 0.000000 mm, y = 0.000000 mm, z = 0.000000 mm"), "{text}");
+    let rows = aspecta("ik linear-delta --json --file -").write_stdin("-0.0,0,-0.0\n").output().unwrap();
+    let text = String::from_utf8(rows.stdout).unwrap();
+    assert!(text.contains(" 0.0") && !text.contains("-0.0\n") && !text.contains("-0.0,"), "{text}");
+    let rows = aspecta("ik linear-delta --csv --file -").write_stdin("-0.0,0,-0.0\n").output().unwrap();
+    let text = String::from_utf8(rows.stdout).unwrap();
+    assert!(text.lines().nth(1).unwrap().starts_with("1,0.0,0.0,0.0,"), "{text}");
 }
 
 #[test]

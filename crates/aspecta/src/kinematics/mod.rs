@@ -26,6 +26,7 @@ pub use out_of_reach::OutOfReach;
 pub use singularity::{SINGULAR, Singularity, State};
 pub use working_mode::{NotAMode, WorkingMode};
 
+use crate::num::written;
 use serde::Serialize;
 
 /// Runs a function generic over (D, N) — the dimension of space and the degrees of freedom — for the
@@ -81,7 +82,7 @@ pub enum KinematicsError {
         found: usize,
     },
     /// NaN or infinity.
-    #[error("{what} coordinate {index} is {value}: give a finite number")]
+    #[error("{what} coordinate {index} is {}: give a finite number", written(*.value))]
     NotFinite {
         /// `pose` or `joint`.
         what: &'static str,
@@ -91,7 +92,7 @@ pub enum KinematicsError {
         value: f64,
     },
     /// Too large for double precision to mean anything.
-    #[error("{what} coordinate {index} is {value}: beyond ±1e7, where doubles no longer resolve a robot")]
+    #[error("{what} coordinate {index} is {}: beyond ±1e7, where doubles no longer resolve a robot", written(*.value))]
     TooLarge {
         /// `pose` or `joint`.
         what: &'static str,
@@ -101,7 +102,7 @@ pub enum KinematicsError {
         value: f64,
     },
     /// The length of a strut must be positive.
-    #[error("joint coordinate {leg} is {value}, but leg {leg} is a strut, whose length must be positive")]
+    #[error("joint coordinate {leg} is {}, but leg {leg} is a strut, whose length must be positive", written(*.value))]
     StrutLength {
         /// Leg number, from 1.
         leg: usize,

@@ -18,6 +18,7 @@ mod jet;
 mod pack;
 mod random;
 mod slope;
+mod written;
 
 pub use ball::Ball;
 pub use disc::Disc;
@@ -26,6 +27,7 @@ pub use jet::Jet;
 pub use pack::{LANES, Mask, Pack};
 pub(crate) use random::Random;
 pub use slope::{Enclosure, Slope};
+pub(crate) use written::written;
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 

@@ -1,6 +1,7 @@
 //! Slices of the pose space: some coordinates held at a value, the others free.
 
 use super::{Robot, Unbounded, Window};
+use crate::num::written;
 
 /// Greatest value a coordinate can be held at, as for the poses of the kinematics.
 const GREATEST: f64 = 1e7;
@@ -34,7 +35,7 @@ pub enum SliceError {
         names: String,
     },
     /// NaN, infinity, or too large for double precision to mean anything.
-    #[error("robot `{robot}`: `{coordinate}` cannot be held at {value:?}: give a finite number within ±1e7")]
+    #[error("robot `{robot}`: `{coordinate}` cannot be held at {}: give a finite number within ±1e7", written(*.value))]
     Value {
         /// Robot name.
         robot: String,
@@ -61,8 +62,8 @@ pub enum SliceError {
     },
     /// The workspace does not get there.
     #[error(
-        "robot `{robot}`: `{coordinate}` cannot be held at {value} {unit}: links, limits and window keep it from {} to \
-         {} {unit}; give a value between", short(.lo), short(.hi)
+        "robot `{robot}`: `{coordinate}` cannot be held at {} {unit}: links, limits and window keep it from {} to \
+         {} {unit}; give a value between", written(*.value), short(.lo), short(.hi)
     )]
     Outside {
         /// Robot name.

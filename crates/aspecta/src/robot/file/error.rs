@@ -1,6 +1,7 @@
 //! What can be wrong with a robot file, said so that the reader can mend it.
 
 use super::locate::hint;
+use crate::num::written;
 use crate::robot::RobotError;
 use std::fmt;
 
@@ -165,7 +166,7 @@ pub enum Problem {
     )]
     Parallel,
     /// min ≥ max.
-    #[error("contradictory limits: the minimum {min} is not below the maximum {max}; exchange or widen them")]
+    #[error("contradictory limits: the minimum {} is not below the maximum {}; exchange or widen them", written(*.min), written(*.max))]
     Contradiction {
         /// Lower limit.
         min: f64,
