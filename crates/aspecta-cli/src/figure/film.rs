@@ -1,6 +1,7 @@
 //! The robot in motion: one view of all its configurations.
 
-use super::robot::{Drawing, View, label, legend};
+use super::parts::legend;
+use super::robot::{Drawing, View, label};
 use super::shape::Shapes;
 use super::skeleton::Skeleton;
 use super::svg::Svg;
@@ -27,7 +28,7 @@ pub fn film(robot: &Robot, configurations: &[(&[f64], &[f64])]) -> Film {
     let all: Vec<&Skeleton> = skeletons.iter().collect();
     let view = View::fit(robot, &all, [62.0, 28.0, width - 82.0, height - 108.0]);
     view.backdrop(&mut svg, "", &robot.length_unit);
-    legend(&mut svg, robot, [62.0, height - 14.0]);
+    legend(&mut svg, robot, [62.0, width - 20.0, height - 14.0]);
     let drawing = |skeleton| Drawing { robot, skeleton, view: &view, large: true };
     // Names that stand still are clear of the robot wherever it goes.
     let every = skeletons.len().div_ceil(CLEAR_OF);

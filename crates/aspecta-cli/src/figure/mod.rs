@@ -18,6 +18,7 @@ pub mod level;
 pub mod maps;
 mod oblique;
 pub mod palette;
+mod parts;
 pub mod profile;
 pub mod raster;
 pub mod regions;

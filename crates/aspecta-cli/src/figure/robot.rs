@@ -3,16 +3,12 @@
 use super::axes::{Axis, Chart};
 use super::label::Labels;
 use super::palette::INK;
+use super::parts::{BASE, CRANK, PLATFORM, ROD, SPHERE, legend};
 use super::shape::Shapes;
 use super::skeleton::{LegShape, Point, Skeleton, minus, plus, times};
 use super::svg::{Anchor, Svg};
 use aspecta::aspect::{ModeReport, Reachable, Sample};
 use aspecta::robot::{Actuator, Platform, Robot};
-
-const BASE: &str = "#777";
-const CRANK: &str = "#0072b2";
-const ROD: &str = "#d55e00";
-const PLATFORM: &str = "#009e73";
 
 /// The robot at `sample`, with the names of its points, both frames and a legend.
 pub fn robot(robot: &Robot, sample: &Sample) -> String {
@@ -25,7 +21,7 @@ pub fn robot(robot: &Robot, sample: &Sample) -> String {
     let mut shapes = drawing.shapes();
     label(&mut shapes, &view, drawing.lines(), drawing.names());
     shapes.0.iter().for_each(|shape| svg.shape(shape));
-    legend(&mut svg, robot, [62.0, height - 14.0]);
+    legend(&mut svg, robot, [62.0, width - 20.0, height - 14.0]);
     svg.finish()
 }
 
@@ -75,6 +71,7 @@ pub(super) struct View {
     /// Rows: the paper's right and up, in base coordinates.
     project: [Point; 2],
     flat: bool,
+    sphere: bool,
 }
 
 impl View {
@@ -114,7 +111,7 @@ impl View {
         };
         let chart =
             Chart { x: axis("x", grow(x, width)), y: axis("y", grow(y, height)), left, top, width, height };
-        Self { chart, project, flat }
+        Self { chart, project, flat, sphere }
     }
 
     /// Where a point is seen.
@@ -122,7 +119,7 @@ impl View {
         self.chart.at([dot(self.project[0], p), dot(self.project[1], p)])
     }
 
-    /// Axes in the plane, a scale bar in space.
+    /// Axes in the plane, a scale bar in space but on the unit sphere, which has no unit.
     pub fn backdrop(&self, svg: &mut Svg, title: &str, unit: &str) {
         let c = &self.chart;
         if self.flat {
@@ -130,6 +127,9 @@ impl View {
             return;
         }
         svg.text([c.left + c.width / 2.0, c.top - 7.0], Anchor::Middle, 12.0, "font-weight:600", title);
+        if self.sphere {
+            return;
+        }
         let per_unit = c.width / c.x.span();
         let power = 10_f64.powf((60.0 / per_unit).log10().floor());
         let length = [1.0, 2.0, 5.0, 10.0]
@@ -173,7 +173,7 @@ impl Drawing<'_> {
         if spherical {
             let c = self.view.at([0.0; 3]);
             let r = self.view.chart.width / self.view.chart.x.span();
-            svg.circle(c, r, "fill:#f4f4f4;stroke:#bbb;stroke-width:1");
+            svg.circle(c, r, &format!("fill:#f4f4f4;stroke:{SPHERE};stroke-width:1"));
         }
         for leg in &self.skeleton.legs {
             self.base(svg, leg);
@@ -333,32 +333,6 @@ pub(super) fn label(shapes: &mut Shapes, view: &View, lines: Vec<[Point; 2]>, na
     for (p, name) in names {
         let [x, y] = labels.beside(view.at(p));
         shapes.text([x, y + 4.5], 13.0, halo, &name);
-    }
-}
-
-/// What the colours mean.
-pub(super) fn legend(svg: &mut Svg, robot: &Robot, at: [f64; 2]) {
-    let has = |f: fn(&Actuator) -> bool| robot.legs.iter().any(|l| f(&l.actuator));
-    let mut entries = Vec::new();
-    if has(|a| a.is_angle()) {
-        entries.push((CRANK, "crank (driven joint filled)"));
-    }
-    if has(|a| matches!(a, Actuator::Prismatic { .. })) {
-        entries.push((BASE, "slider's range (driven joint filled)"));
-    }
-    if has(|a| matches!(a, Actuator::Strut)) {
-        entries.push((CRANK, "strut (driven length)"));
-    } else {
-        entries.push((ROD, "rod"));
-    }
-    if robot.platform != Platform::PlanePoint {
-        entries.push((PLATFORM, "platform"));
-    }
-    let mut x = at[0];
-    for (colour, text) in entries {
-        svg.line([x, at[1] - 4.0], [x + 20.0, at[1] - 4.0], &format!("stroke:{colour};stroke-width:4"));
-        svg.text([x + 26.0, at[1]], Anchor::Start, 11.0, "", text);
-        x += 44.0 + 5.8 * text.len() as f64;
     }
 }
 

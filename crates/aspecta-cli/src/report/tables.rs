@@ -5,7 +5,7 @@ use crate::figure::robot::{signs, subscript};
 use crate::figure::survey::coordinate_name;
 use aspecta::aspect::{Analysis, AspectClass, DetSign, Measure, Reachable};
 use aspecta::kinematics::WorkingMode;
-use aspecta::robot::{Actuator, Leg, Robot};
+use aspecta::robot::{Actuator, Leg, Platform, Robot};
 use maud::{Markup, html};
 
 /// The robot's data: one row a leg.
@@ -13,7 +13,10 @@ pub fn legs(analysis: &Analysis) -> Markup {
     let robot = &analysis.robot;
     html! {
         table {
-            caption { "The robot: " (robot.legs.len()) " legs, platform “" (robot.platform) "”, lengths in " (robot.length_unit) "." }
+            caption {
+                "The robot: " (robot.legs.len()) " legs, platform “" (robot.platform) "”"
+                @if robot.platform != Platform::TurningBody { ", lengths in " (robot.length_unit) } "."
+            }
             thead { tr {
                 th scope="col" { "leg" } th scope="col" { "actuator" } th scope="col" { "anchor A" }
                 th scope="col" { "attachment C" } th scope="col" { "lengths" } th scope="col" { "limits" }
