@@ -107,7 +107,7 @@ static void complaints(void) {
     CHECK(aspecta_start("five-barr", pose, q, 2, small, sizeof small) == NULL && strcmp(small, "no robo") == 0);
     CHECK(aspecta_start("five-barr", pose, q, 2, NULL, 0) == NULL);
     CHECK(aspecta_start("five-bar", pose, q, 3, message, sizeof message) == NULL);
-    CHECK(strstr(message, "2 pose coordinates (x, y), but 3 were given") != NULL);
+    CHECK(strstr(message, "2 pose coordinates (x, y), not 3") != NULL);
     CHECK(aspecta_start("five-bar", pose, q, 2, message, sizeof message) == NULL);
     CHECK(strstr(message, "no solution for this joint vector") != NULL);
     CHECK(aspecta_start(NULL, pose, q, 2, message, sizeof message) == NULL && strstr(message, "robot is NULL"));

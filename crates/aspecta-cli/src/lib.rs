@@ -9,3 +9,4 @@ pub mod figure;
 pub mod file;
 pub mod mesh;
 pub mod report;
+pub mod words;

@@ -9,6 +9,7 @@ use aspecta::domain::cusps::{
     self, CurveEnd, Cusp, CuspCurve, CuspCurves, Doubt, Options, Proof, Undecided, cusp_curves, cusps,
 };
 use aspecta::robot::Robot;
+use aspecta_cli::words::count;
 use clap::Args;
 use serde::Serialize;
 use std::io::Write;
@@ -84,21 +85,37 @@ impl Cusps {
 
 fn print(out: &mut dyn Write, robot: &Robot, found: &cusps::Cusps, degrees: bool) -> Result<(), Failure> {
     let held = found.fixed.iter().map(|h| format!(" at {} = {} {}", h.joint, number(h.value), h.unit));
-    let count = found.cusps.len();
+    let cusps = count(found.cusps.len(), "cusp", "cusps");
     let proof = match (found.complete, found.proof) {
         (false, _) => "not proved to be all",
         (true, Proof::Intervals) => "proved to be all",
         (true, Proof::Quadratic) => "proved: without turning, at most two direct solutions are isolated",
     };
-    let plural = if count == 1 { "" } else { "s" };
-    writeln!(out, "{}: {count} cusp{plural}{} ({proof})", found.robot, held.collect::<String>())?;
-    if count > 0 {
+    writeln!(out, "{}: {cusps}{} ({proof})", found.robot, held.collect::<String>())?;
+    if !found.cusps.is_empty() {
         write!(out, "{}", table(robot, &found.cusps, degrees))?;
     }
-    for u in &found.undecided {
-        writeln!(out, "undecided, mode {}: {}: {}", u.mode, place(robot, u, degrees), reason(u.why))?;
+    for (modes, what) in undecided(robot, &found.undecided, degrees) {
+        match &modes[..] {
+            [mode] => writeln!(out, "undecided, mode {mode}: {what}")?,
+            _ => writeln!(out, "undecided, {} modes ({}): {what}", modes.len(), modes.join(", "))?,
+        }
     }
     Ok(())
+}
+
+/// What is undecided, each with the modes it is so in: a budget that is spent leaves the same box in many.
+fn undecided(robot: &Robot, boxes: &[Undecided], degrees: bool) -> Vec<(Vec<String>, String)> {
+    let mut all: Vec<(Vec<String>, String)> = Vec::new();
+    for u in boxes {
+        let (mode, what) = (u.mode.to_string(), format!("{}: {}", place(robot, u, degrees), reason(u.why)));
+        match all.iter_mut().find(|(_, known)| *known == what) {
+            Some((modes, _)) if modes.contains(&mode) => {}
+            Some((modes, _)) => modes.push(mode),
+            None => all.push((vec![mode], what)),
+        }
+    }
+    all
 }
 
 fn table(robot: &Robot, cusps: &[Cusp], degrees: bool) -> Table {
@@ -125,17 +142,17 @@ fn print_curves(
     found: &CuspCurves,
     degrees: bool,
 ) -> Result<(), Failure> {
-    let (count, slices) = (found.curves.len(), found.slices.len());
-    let plural = if count == 1 { "" } else { "s" };
+    let (curves, slices) =
+        (count(found.curves.len(), "curve", "curves"), count(found.slices.len(), "slice", "slices"));
     writeln!(
         out,
-        "{}: {count} curve{plural} of cusps through {slices} slices of {} (numerical; curves between slices are not seen)",
+        "{}: {curves} of cusps through {slices} of {} (numerical; curves between slices are not seen)",
         found.robot, found.joint
     )?;
     if !found.slices_complete {
         writeln!(out, "not all slices were searched completely: `--fix {}=VALUE` tells more", found.joint)?;
     }
-    if count == 0 {
+    if found.curves.is_empty() {
         return Ok(());
     }
     let joints = Labels::joints(robot, degrees);

@@ -13,6 +13,7 @@ use aspecta::domain::{DomainError, Domains as Found, Map, MappedAspect, Surfaces
 use aspecta::paving::Stop;
 use aspecta::robot::Robot;
 use aspecta_cli::figure::regions::Cut;
+use aspecta_cli::words::count;
 use aspecta_cli::{domains as figures, file};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
@@ -164,14 +165,21 @@ impl Domains {
                 &Output { format_version: FORMAT_VERSION, robot, fixed, aspects, domains },
             );
         }
-        for sheet in sheets {
+        for (k, sheet) in sheets.iter().enumerate() {
+            if k > 0 {
+                writeln!(out)?;
+            }
             regions::print(out, map, &sheet.domains)?;
         }
         if sheets.is_empty() {
             let found: usize = map.classes.iter().map(|class| class.aspects.len()).sum();
             match found {
                 0 => writeln!(out, "no aspect was found")?,
-                _ => writeln!(out, "none of the {found} aspects found is there, or cut into regions")?,
+                _ => writeln!(
+                    out,
+                    "{}, but not what is asked for, or it is not cut into regions",
+                    count(found, "aspect was found", "aspects were found")
+                )?,
             }
         }
         Ok(())
@@ -224,10 +232,16 @@ fn target(path: &Path) -> Result<Target, Failure> {
 /// Says what of a characteristic surface is missing in the files.
 fn incomplete(aspect: usize, given_up: GivenUp) {
     let GivenUp { rim, unclear, unsolved, unlocated } = given_up;
-    if rim + unclear + unsolved + unlocated > 0 {
-        note(&format!(
-            "the characteristic surface of aspect {aspect} has gaps: {rim} pieces of the boundary at its rim and {unclear} others are \
-             not followed, {unsolved} points have no direct solutions, {unlocated} solutions are in no known aspect"
-        ));
+    let gaps = [
+        (rim, "piece", "pieces", "of the boundary not followed at its rim"),
+        (unclear, "piece", "pieces", "of the boundary not followed elsewhere"),
+        (unsolved, "point", "points", "without direct solutions"),
+        (unlocated, "solution", "solutions", "in no known aspect"),
+    ];
+    let there = gaps.iter().filter(|gap| gap.0 > 0);
+    let named: Vec<_> =
+        there.map(|&(n, one, many, which)| format!("{} {which}", count(n, one, many))).collect();
+    if !named.is_empty() {
+        note(&format!("the characteristic surface of aspect {aspect} has gaps: {}", named.join(", ")));
     }
 }

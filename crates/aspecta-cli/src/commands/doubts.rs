@@ -4,6 +4,7 @@ use crate::failure::Failure;
 use crate::output::{Align, Table, brief};
 use aspecta::aspect::{Analysis, Doubt, DoubtKind};
 use aspecta_cli::doubt::{largest_first, place, reasons};
+use aspecta_cli::words::count;
 use std::io::Write;
 
 /// Doubts listed of each kind; the rest is in the JSON.
@@ -47,7 +48,8 @@ fn table(analysis: &Analysis, doubts: &[&Doubt]) -> Table {
     ];
     let mut table = Table::new(columns);
     for doubt in doubts.iter().take(LISTED) {
-        let size = if doubt.measure > 0.0 { brief(doubt.measure) } else { format!("{} boxes", doubt.boxes) };
+        let size =
+            if doubt.measure > 0.0 { brief(doubt.measure) } else { count(doubt.boxes, "box", "boxes") };
         let sign = format!("  {}", doubt.det_a);
         table.row([doubt.mode.to_string(), sign, size, about(analysis, doubt), names(&doubt.undecided)]);
     }

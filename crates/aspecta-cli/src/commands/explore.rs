@@ -11,6 +11,7 @@ use aspecta::motion::explore::{End, Exploration, ExploredClass, explore};
 use aspecta::paving::Budget;
 use aspecta::robot::Robot;
 use aspecta_cli::doubt::ARCHITECTURE;
+use aspecta_cli::words::count;
 use clap::Args;
 use serde::Serialize;
 use std::io::Write;
@@ -92,10 +93,14 @@ fn print(out: &mut dyn Write, robot: &Robot, found: &Exploration, degrees: bool)
         rows(class, &labels, &mut table);
     }
     write!(out, "{table}")?;
+    if found.at_least == 0 {
+        return nothing(out, found);
+    }
     writeln!(
         out,
-        "\n{}: at least {} generalized aspects, certified: so many classes (working mode, sign of det A) have a pose proved to lie in them",
-        found.robot, found.at_least
+        "\n{}: at least {}, certified: so many classes (working mode, sign of det A) have a pose proved to lie in them",
+        found.robot,
+        count(found.at_least, "generalized aspect", "generalized aspects")
     )?;
     writeln!(
         out,
@@ -124,8 +129,20 @@ fn print(out: &mut dyn Write, robot: &Robot, found: &Exploration, degrees: bool)
     Ok(())
 }
 
-fn classes(count: usize) -> String {
-    if count == 1 { "1 class".into() } else { format!("{count} classes") }
+/// What is said if no pose was found in any class.
+fn nothing(out: &mut dyn Write, found: &Exploration) -> Result<(), Failure> {
+    writeln!(
+        out,
+        "\n{}: no pose was found in {}, which does not prove that there is none: nothing is known of the number of aspects; \
+         more --samples or wider limits may find poses",
+        found.robot,
+        classes(found.classes.len())
+    )?;
+    Ok(())
+}
+
+fn classes(n: usize) -> String {
+    count(n, "class", "classes")
 }
 
 /// The largest components of a class, and how many more there are.

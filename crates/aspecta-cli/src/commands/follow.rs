@@ -7,6 +7,7 @@ use crate::output::{FORMAT_VERSION, Format, FormatArgs, exact, json_line};
 use aspecta::kinematics::WorkingMode;
 use aspecta::motion::follow::{Follower, InverseFollower, JointStep, Refusal, Step};
 use aspecta::robot::Robot;
+use aspecta_cli::words::count;
 use clap::Args;
 use serde::Serialize;
 use std::io::Write;
@@ -262,7 +263,8 @@ impl Printer {
 
     fn ending(&self, out: &mut dyn Write, steps: usize, refused: usize) -> Result<(), Failure> {
         if self.format == Format::Table {
-            writeln!(out, "{steps} lines: {} certified, {refused} refused", steps - refused)?;
+            let lines = count(steps, "line", "lines");
+            writeln!(out, "{lines}: {} certified, {refused} refused", steps - refused)?;
         }
         Ok(())
     }

@@ -5,6 +5,7 @@ use crate::failure::{Answer, Failure};
 use crate::output::{FORMAT_VERSION, Format, ShownArgs, json};
 use aspecta::motion::explore::{JoinedSolutions, SharedClass};
 use aspecta::robot::Robot;
+use aspecta_cli::words::count;
 use serde::Serialize;
 use std::io::Write;
 
@@ -70,9 +71,9 @@ fn print_class(out: &mut dyn Write, class: &SharedClass) -> Result<(), Failure> 
     if class.joined.len() > 1 {
         writeln!(
             out,
-            "  these {} could not be joined within the budget ({} samples); that they lie in different aspects is not proved",
+            "  these {} could not be joined within the budget ({}); that they lie in different aspects is not proved",
             class.joined.len(),
-            class.samples
+            count(class.samples, "sample", "samples")
         )?;
     }
     Ok(())

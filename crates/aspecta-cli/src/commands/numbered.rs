@@ -7,6 +7,7 @@ use crate::input::Columns;
 use crate::output::{Align, Table, exact, number};
 use aspecta::kinematics::Solution;
 use aspecta::robot::Robot;
+use aspecta_cli::words::count;
 use std::io::Write;
 
 /// A solution, its number from 1, and what it belongs to, if that is known.
@@ -27,9 +28,9 @@ pub fn print_table(
 ) -> Result<(), Failure> {
     let (pose, joints) = (Labels::pose(robot, degrees), Labels::joints(robot, degrees));
     let all = if complete { "proved to be all" } else { "not proved to be all" };
-    let count = solutions.len();
-    writeln!(out, "{}: {count} direct solutions at {} ({all})", robot.name, joints.sentence(q))?;
-    if count == 0 {
+    let found = count(solutions.len(), "direct solution", "direct solutions");
+    writeln!(out, "{}: {found} at {} ({all})", robot.name, joints.sentence(q))?;
+    if solutions.is_empty() {
         return Ok(());
     }
     let right = |name: String| (name, Align::Right);

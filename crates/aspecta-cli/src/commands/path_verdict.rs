@@ -122,5 +122,6 @@ pub fn bounds(least: &Least) -> String {
     let decimals = digits.max(0) as usize;
     let (low, high) = ((least.at_least / unit * scale).floor(), (least.at_most / unit * scale).ceil());
     let tail = if plain { String::new() } else { format!("e{exponent}") };
-    format!("{:.decimals$}{tail} … {:.decimals$}{tail}", low / scale, high / scale)
+    // Adding zero takes the sign from −0.
+    format!("{:.decimals$}{tail} … {:.decimals$}{tail}", low / scale + 0.0, high / scale + 0.0)
 }

@@ -5,6 +5,7 @@ use crate::failure::Failure;
 use crate::output::{Align, Table, brief};
 use aspecta::domain::{Domains, Map};
 use aspecta::robot::Window;
+use aspecta_cli::words::count;
 use std::io::Write;
 
 /// Prints regions, uniqueness domains and what was checked of them.
@@ -29,8 +30,7 @@ pub fn print(out: &mut dyn Write, map: &Map, found: &Domains) -> Result<(), Fail
     }
     regions(out, &pose, &map.window, found)?;
     uniqueness(out, found)?;
-    checks(out, &pose, held.is_empty(), found)?;
-    Ok(writeln!(out)?)
+    checks(out, &pose, held.is_empty(), found)
 }
 
 /// The coordinates that a slice holds.
@@ -67,10 +67,11 @@ fn regions(out: &mut dyn Write, pose: &Labels, window: &Window, found: &Domains)
     write!(out, "{table}")?;
     more(out, found.regions.len())?;
     if found.unresolved.parts > 0 {
-        let (parts, share) = (found.unresolved.parts, 100.0 * found.unresolved.measure / found.measure);
+        let share = 100.0 * found.unresolved.measure / found.measure;
         writeln!(
             out,
-            "  not resolved: {parts} parts thinner than two cells somewhere, {share:.3} % of the {}; more --cells make them fewer",
+            "  not resolved: {} thinner than two cells somewhere, {share:.3} % of the {}; more --cells make them fewer",
+            count(found.unresolved.parts, "part", "parts"),
             unit.name
         )?;
     }
@@ -117,8 +118,8 @@ fn checks(out: &mut dyn Write, pose: &Labels, whole: bool, found: &Domains) -> R
     if let Some(apart) = apart {
         writeln!(
             out,
-            "the {} others are at most {} cells from the characteristic surface",
-            agreement.disagreements.len(),
+            "{} at most {} cells from the characteristic surface",
+            count(agreement.disagreements.len(), "other is", "others are"),
             brief(apart)
         )?;
     }
@@ -156,7 +157,8 @@ fn checks(out: &mut dyn Write, pose: &Labels, whole: bool, found: &Domains) -> R
         )?;
     }
     if found.failed > 0 {
-        writeln!(out, "at {} nodes the direct model failed: counted as one solution", found.failed)?;
+        let nodes = count(found.failed, "node", "nodes");
+        writeln!(out, "at {nodes} the direct model failed: counted as one solution")?;
     }
     Ok(())
 }

@@ -6,6 +6,7 @@ use crate::input::Columns;
 use crate::output::{Align, Format, Table, exact, number};
 use aspecta::kinematics::Solution;
 use aspecta::robot::Robot;
+use aspecta_cli::words::count;
 use serde::Serialize;
 use std::io::Write;
 
@@ -98,12 +99,12 @@ fn print_table(
     let (pose, joints) = (Labels::pose(robot, degrees), Labels::joints(robot, degrees));
     let (given, model) = if unknown == Unknown::Joints { (pose, "inverse") } else { (joints, "direct") };
     let total: usize = found.iter().map(|f| f.solutions.len()).sum();
-    let solutions = format!("{total} {model} solution{}", if total == 1 { "" } else { "s" });
+    let solutions = count(total, &format!("{model} solution"), &format!("{model} solutions"));
     match found {
         [Found { query: query @ Query { line: None, .. }, .. }] => {
             writeln!(out, "{}: {solutions} at {}", robot.name, given.sentence(&query.values))?;
         }
-        _ => writeln!(out, "{}: {solutions} of {} rows", robot.name, found.len())?,
+        _ => writeln!(out, "{}: {solutions} of {}", robot.name, count(found.len(), "row", "rows"))?,
     }
     if total > 0 {
         write!(out, "{}", table(robot, unknown, found, degrees))?;

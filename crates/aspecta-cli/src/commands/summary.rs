@@ -9,6 +9,7 @@ use aspecta::kinematics::WorkingMode;
 use aspecta::paving::Stop;
 use aspecta::robot::Robot;
 use aspecta_cli::report::EARLIER_NEED;
+use aspecta_cli::words::count;
 use std::io::Write;
 
 /// Columns of the terminal that the summary is made for.
@@ -234,8 +235,8 @@ fn run(analysis: &Analysis) -> String {
     });
     let cells = widths.collect::<Vec<_>>().join(" × ");
     format!(
-        "{} boxes in {:.2} s, finest cells {cells} (depth {}): {ended}, {}.",
-        run.boxes,
+        "{} in {:.2} s, finest cells {cells} (depth {}): {ended}, {}.",
+        count(run.boxes, "box", "boxes"),
         run.seconds,
         run.depth,
         found(analysis)
@@ -245,10 +246,11 @@ fn run(analysis: &Analysis) -> String {
 /// `exactly 10 aspects`: said once more at the end, where a terminal stands still.
 fn found(analysis: &Analysis) -> String {
     let low = analysis.aspects.low;
+    let aspects = |n: usize| count(n, "aspect", "aspects");
     match analysis.aspects.high {
-        Some(high) if high == low => format!("exactly {low} aspects"),
-        Some(high) => format!("{low} to {high} aspects"),
-        None => format!("at least {low} aspects"),
+        Some(high) if high == low => format!("exactly {}", aspects(low)),
+        Some(high) => format!("{low} to {}", aspects(high)),
+        None => format!("at least {}", aspects(low)),
     }
 }
 

@@ -6,6 +6,7 @@ use crate::input::Columns;
 use crate::output::{exact, number};
 use aspecta::motion::time::{JointLimits, Trajectory};
 use aspecta::robot::Robot;
+use aspecta_cli::words::count;
 use std::io::Write;
 use std::path::Path;
 
@@ -67,7 +68,8 @@ pub fn write(
     let mut content = Vec::new();
     rows(&mut content, robot, motion, rate)?;
     let written = Target::new(option, path)?.write(content)?;
-    Ok(format!("{} rows, {rate} a second: {}", motion.rows(rate).count(), written.display()))
+    let rows = count(motion.rows(rate).count(), "row", "rows");
+    Ok(format!("{rows}, {rate} a second: {}", written.display()))
 }
 
 /// The motion as CSV, the working mode last.

@@ -5,6 +5,7 @@ use super::tables::{self, bounds, measure_unit, number};
 use super::{Figure, Figures, FlatFigures};
 use crate::figure::robot::signs;
 use crate::figure::survey::{coordinate_name, slice_name};
+use crate::words;
 use aspecta::aspect::{Analysis, Run};
 use aspecta::paving::Stop;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
@@ -63,8 +64,8 @@ fn summary(analysis: &Analysis) -> Markup {
             Some(slice) => { "In the " (slice) " this robot has " }
             None => { "This robot has " }
         }
-        strong { (bounds(count.low, count.high)) " generalized aspects" } " in "
-        (analysis.modes.len()) " working modes (proved). "
+        strong { (bounds(count.low, count.high)) @if count.high == Some(1) { " generalized aspect" } @else { " generalized aspects" } } " in "
+        (words::count(analysis.modes.len(), "working mode", "working modes")) " (proved). "
         "An aspect is a largest domain in which the robot can move without meeting a singularity and without changing the \
          solution of its inverse model. "
         @if !analysis.fixed.is_empty() { "Here the robot moves within the slice, while det A is that of the whole robot: each aspect of the slice lies in \
@@ -136,7 +137,7 @@ fn counts_section(analysis: &Analysis) -> Markup {
             div.scroll { (tables::classes(analysis)) }
             (doubts::table(analysis))
             details open[analysis.aspects.low <= 24] {
-                summary { "All " (analysis.aspects.low) " proved aspects" }
+                summary { "All " (words::count(analysis.aspects.low, "proved aspect", "proved aspects")) }
                 div.scroll { (tables::aspects(analysis)) }
             }
         }

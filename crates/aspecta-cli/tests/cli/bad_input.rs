@@ -55,11 +55,8 @@ fn lists_that_are_not_numbers() {
 
 #[test]
 fn lists_of_the_wrong_length() {
-    refused(
-        "ik five-bar --pose 1,2,3",
-        &["robot `five-bar` has 2 pose coordinates (x, y), but 3 were given"],
-    );
-    refused("fk 3-rrr --q 1", &["robot `3-rrr` has 3 joint coordinates (q1, q2, q3), but 1 were given"]);
+    refused("ik five-bar --pose 1,2,3", &["robot `five-bar` has 2 pose coordinates (x, y), not 3"]);
+    refused("fk 3-rrr --q 1", &["robot `3-rrr` has 3 joint coordinates (q1, q2, q3), not 1"]);
     refused("state five-bar --pose 1", &["has 2 pose coordinates"]);
     refused("state five-bar --pose 4,7 --q 1,2,3", &["has 2 joint coordinates"]);
 }

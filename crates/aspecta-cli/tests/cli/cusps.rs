@@ -34,6 +34,15 @@ fn none_or_undecided_is_exit_status_1() {
     assert!(text.contains("not proved to be all") && text.contains("budget of boxes"), "{text}");
 }
 
+/// A budget that ends with the first box leaves it in all modes: one line.
+#[test]
+fn what_is_undecided_in_many_modes_is_said_once() {
+    let cut = output("cusps spherical-3-rrr --fix q1=0.3 --boxes 100");
+    let text = String::from_utf8_lossy(&cut.stdout);
+    assert_eq!(text.matches("undecided, ").count(), 1, "{text}");
+    assert!(text.contains("undecided, 8 modes (+++, ++-, "), "{text}");
+}
+
 #[test]
 fn bad_input_is_refused() {
     for (arguments, complaint) in [
@@ -41,9 +50,9 @@ fn bad_input_is_refused() {
         ("cusps 3-rpr --fix x=1", "--fix: `3-rpr` has no joint `x`; it has q1, q2, q3"),
         ("cusps 3-rpr --fix q1=30deg", "`q1` is a length: give a plain number"),
         ("cusps 3-rpr --fix q1=-1", "whose length must be positive"),
-        ("cusps 3-rpr --fix q1=14,q2=15", "with 1 of the 3 joints held, but 2 are"),
+        ("cusps 3-rpr --fix q1=14,q2=15", "with 1 of the 3 joints held, not 2"),
         ("cusps 3-rpr --fix q1=14 --mode +++", "--mode: `+++` is not a working mode"),
-        ("cusps five-bar --fix q1=1", "with 0 of the 2 joints held, but 1 are"),
+        ("cusps five-bar --fix q1=1", "with 0 of the 2 joints held, not 1"),
         ("cusps hexa", "6 degrees of freedom"),
         ("cusps 3-rpr --fix q1=14 --boxes 0", "--boxes"),
     ] {

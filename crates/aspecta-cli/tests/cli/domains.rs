@@ -10,6 +10,7 @@ fn pictures_are_written_and_named() {
     let output = aspecta(arguments).arg(directory.path()).output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let text = String::from_utf8(output.stdout).unwrap();
+    assert!(!text.ends_with("\n\n") && !text.contains("\n\nwritten"), "{text}");
     let mut names: Vec<String> = fs::read_dir(directory.path())
         .unwrap()
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())

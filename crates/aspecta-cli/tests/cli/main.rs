@@ -6,6 +6,7 @@ mod check_path;
 mod csv;
 mod cusps;
 mod domains;
+mod explore;
 mod export;
 mod follow;
 mod json;

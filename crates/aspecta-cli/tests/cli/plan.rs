@@ -170,7 +170,7 @@ fn the_poses_of_a_free_body_are_explored() {
 #[test]
 fn mistakes_are_named() {
     for (arguments, complaint) in [
-        ("plan five-bar --from 4,7 --to 5 --mode +-", "has 2 pose coordinates (x, y), but 1 were given"),
+        ("plan five-bar --from 4,7 --to 5 --mode +-", "has 2 pose coordinates (x, y), not 1"),
         ("plan five-bar --from 4,7 --to 5,a --mode +-", "`a`, is not a number"),
         ("plan five-bar --from 4,7 --to 5,6 --mode +", "`+` is not a working mode of `five-bar`"),
         ("plan five-bar --from 4,7 --to 5,6 --mode +- --avoid 2", "--avoid: `2` is not a number from 0 to 1"),

@@ -53,9 +53,7 @@ pub enum CuspError {
         dof: usize,
     },
     /// Cusps are isolated with n − 2 joints held.
-    #[error(
-        "robot `{robot}`: cusps are isolated points with {wanted} of the {dof} joints held, but {found} are; give {wanted}"
-    )]
+    #[error("robot `{robot}`: cusps are isolated points with {wanted} of the {dof} joints held, not {found}")]
     Held {
         /// Robot name.
         robot: String,

@@ -68,7 +68,7 @@ pub struct Solution {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum KinematicsError {
     /// Wrong number of coordinates.
-    #[error("robot `{robot}` has {wanted} {what} coordinates ({names}), but {found} were given")]
+    #[error("robot `{robot}` has {wanted} {what} coordinates ({names}), not {found}")]
     Length {
         /// Robot name.
         robot: String,

@@ -44,9 +44,7 @@ pub struct Robot {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RobotError {
     /// n legs for n degrees of freedom.
-    #[error(
-        "platform `{platform}` has {wanted} degrees of freedom and needs {wanted} legs, but {found} are given"
-    )]
+    #[error("platform `{platform}` has {wanted} degrees of freedom and needs {wanted} legs, not {found}")]
     LegCount {
         /// The platform.
         platform: Platform,

@@ -158,12 +158,12 @@ fn wrong_number_of_legs() {
     let message = says(&PLANE[..two], "name", "name");
     assert_starts(
         &message,
-        "legs[1]: platform `plane-point` has 2 degrees of freedom and needs 2 legs, but 1 are given",
+        "legs[1]: platform `plane-point` has 2 degrees of freedom and needs 2 legs, not 1",
     );
     let message = says(PLANE, "plane-point", "plane-body");
     assert_starts(
         &message,
-        "legs[2]: platform `plane-body` has 3 degrees of freedom and needs 3 legs, but 2 are given",
+        "legs[2]: platform `plane-body` has 3 degrees of freedom and needs 3 legs, not 2",
     );
     let (mistake, _) =
         invalid(&format!("{PLANE}\n[[legs]]\nanchor = [1, 1]\nactuator = {{ kind = \"strut\" }}\n"));

@@ -63,11 +63,11 @@ fn decimals_a_double_takes_for_integers() {
 fn vectors_of_the_wrong_length() {
     assert_starts(
         &says(PLANE, "[9, 0]", "[9, 0, 0]"),
-        "legs[2].anchor = [9, 0, 0]: 3 numbers, but the legs of a `plane-point` live in 2 dimensions: give 2 numbers",
+        "legs[2].anchor = [9, 0, 0]: the legs of a `plane-point` live in 2 dimensions: give 2 numbers, not 3",
     );
     assert_starts(
         &says(SPACE, "[0, 3, 0]", "[0, 3]"),
-        "legs[2].actuator.direction = [0, 3]: 2 numbers, but the legs of a `translating-body` live in 3",
+        "legs[2].actuator.direction = [0, 3]: the legs of a `translating-body` live in 3",
     );
 }
 

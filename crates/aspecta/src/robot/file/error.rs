@@ -125,9 +125,7 @@ pub enum Problem {
     #[error("wrong type: {0}")]
     WrongType(String),
     /// A vector of the wrong length.
-    #[error(
-        "{found} numbers, but the legs of a `{platform}` live in {wanted} dimensions: give {wanted} numbers"
-    )]
+    #[error("the legs of a `{platform}` live in {wanted} dimensions: give {wanted} numbers, not {found}")]
     VectorLength {
         /// The platform's name.
         platform: &'static str,
