@@ -4,6 +4,7 @@ use crate::failure::Failure;
 use aspecta::domain::Map;
 use aspecta::kinematics::WorkingMode;
 use aspecta::robot::Robot;
+use aspecta_cli::words::count;
 use std::fmt::Display;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
@@ -165,6 +166,11 @@ impl<'a> Rows<'a> {
     /// The row of a line, if it holds one.
     fn read(&mut self, text: &str) -> Result<Option<Row>, String> {
         let Some(fields) = fields(text) else { return Ok(None) };
+        if let [whole] = fields[..]
+            && let Some(separator) = [';', '\t'].into_iter().find(|c| whole.contains(*c))
+        {
+            return Err(elsewise_separated(whole, separator));
+        }
         let shape = match &self.shape {
             Some(shape) => shape,
             None => {
@@ -243,13 +249,18 @@ impl Shape {
 
     fn of_row(row: &[&str], layouts: &[Columns]) -> Result<Self, String> {
         let fit = layouts.iter().find(|c| c.names.len() == row.len());
-        let columns = fit.ok_or_else(|| format!("{} fields; {} wanted", row.len(), wanted(layouts)))?;
+        let columns = fit
+            .ok_or_else(|| format!("{}; {} wanted", count(row.len(), "field", "fields"), wanted(layouts)))?;
         Ok(Self { columns: columns.clone(), fields: (0..row.len()).collect(), width: row.len(), mode: None })
     }
 
     fn read(&self, record: &[&str], degrees: bool) -> Result<Vec<f64>, String> {
         if record.len() != self.width {
-            return Err(format!("{} fields, but the first line has {}", record.len(), self.width));
+            return Err(format!(
+                "{}, but the first line has {}",
+                count(record.len(), "field", "fields"),
+                self.width
+            ));
         }
         let number = |(&field, name): (&usize, &String)| match record[field].parse::<f64>() {
             Ok(x) if x.is_finite() => Ok(x),
@@ -261,6 +272,14 @@ impl Shape {
         self.columns.to_radians(&mut values, degrees);
         Ok(values)
     }
+}
+
+/// What is said of a line without a comma, as spreadsheets write it where numbers hold commas.
+fn elsewise_separated(line: &str, separator: char) -> String {
+    let name = if separator == ';' { "semicolons" } else { "tabs" };
+    format!(
+        "`{line}` has {name} and no commas: separate the fields by commas, and write numbers with a point, 0.5"
+    )
 }
 
 fn wanted(layouts: &[Columns]) -> String {

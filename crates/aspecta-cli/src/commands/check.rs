@@ -3,33 +3,40 @@
 use crate::failure::{Answer, Failure};
 use crate::output::note;
 use aspecta::kinematics::seems_architecturally_singular;
-use aspecta::robot::Robot;
+use aspecta::robot::{FileError, Robot};
 use aspecta_cli::doubt::ARCHITECTURE;
+use aspecta_cli::words::count;
 use clap::Args;
-use std::io::Write;
-use std::path::PathBuf;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
 
 /// Arguments of `check`.
 #[derive(Args)]
 pub struct Check {
-    /// The robot file
+    /// The robot file; `-` reads stdin
     file: PathBuf,
 }
 
 impl Check {
     pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
-        let robot = Robot::load(&self.file)?;
-        let modes = robot.working_modes().len();
-        let plural = if modes == 1 { "" } else { "s" };
+        let (robot, file) = if self.file == Path::new("-") {
+            (from_stdin()?, "stdin".to_owned())
+        } else {
+            (Robot::load(&self.file)?, self.file.display().to_string())
+        };
+        let modes = count(robot.working_modes().len(), "working mode", "working modes");
         let (name, platform, legs) = (&robot.name, robot.platform, robot.dof());
-        writeln!(
-            out,
-            "{}: `{name}` is a {platform} with {legs} legs and {modes} working mode{plural}",
-            self.file.display()
-        )?;
+        writeln!(out, "{file}: `{name}` is a {platform} with {legs} legs and {modes}")?;
         if seems_architecturally_singular(&robot, robot.slice(&[]).ok().as_ref()) {
             note(&format!("warning: {ARCHITECTURE}"));
         }
         Ok(Answer::Yes)
     }
+}
+
+fn from_stdin() -> Result<Robot, FileError> {
+    let file = "stdin";
+    let text = io::read_to_string(io::stdin().lock())
+        .map_err(|reason| FileError::Unreadable { file: file.to_owned(), reason })?;
+    Robot::from_toml(&text, file)
 }

@@ -9,7 +9,7 @@ use aspecta::domain::characteristic::Characteristic;
 use aspecta::domain::{DomainError, DomainOptions, Domains, Map, MappedAspect, Surfaces, domains, slice};
 use aspecta::kinematics::WorkingMode;
 use aspecta::paving::{Budget, Control, Stop};
-use aspecta::robot::Robot;
+use aspecta::robot::{FileError, Robot};
 use clap::Args;
 use std::sync::atomic::Ordering;
 
@@ -74,7 +74,8 @@ impl Source {
     /// Reads the map, or resolves the name of the robot.
     pub fn new(name_or_path: &str) -> Result<Self, Failure> {
         if !input::is_map(name_or_path.as_ref()) {
-            return Ok(Self::Robot(input::robot(name_or_path)?));
+            let robot = input::robot(name_or_path).map_err(|failure| neither(name_or_path, failure))?;
+            return Ok(Self::Robot(robot));
         }
         let refused = |why: String| Failure::Input(format!("`{name_or_path}`: {why}"));
         let file = std::fs::read(name_or_path).map_err(|e| refused(e.to_string()))?;
@@ -109,6 +110,16 @@ impl Source {
             )),
             Self::Map(map) => Ok((*map, None)),
         }
+    }
+}
+
+/// What is said of a file that is no map: unless it is called a robot file, it may have been meant for one.
+fn neither(path: &str, failure: Failure) -> Failure {
+    match failure {
+        Failure::File(error @ FileError::Invalid(_)) if !path.ends_with(".toml") => Failure::Input(format!(
+            "`{path}` is not a map, which `aspecta domains ROBOT --save FILE` writes, and not a robot file: {error}"
+        )),
+        other => other,
     }
 }
 

@@ -4,12 +4,13 @@ use super::watch;
 use crate::failure::{Answer, Failure};
 use crate::input;
 use crate::output::{self, Align, Table, note};
-use aspecta::certificate::{Certificate, Claim};
+use aspecta::certificate::{Certificate, CertificateError, Claim};
 use aspecta::robot::Robot;
 use aspecta::verify::{Checked, Verdict, verify};
+use aspecta_cli::words::count;
 use clap::Args;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Arguments of `verify`.
 #[derive(Args)]
@@ -29,7 +30,7 @@ pub struct Verify {
 
 impl Verify {
     pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
-        let certificate = Certificate::load(&self.file)?;
+        let certificate = certificate(&self.file)?;
         if let Some(name) = &self.robot {
             let robot = input::robot(name)?;
             if !is_same(&robot, &certificate.robot) {
@@ -54,6 +55,17 @@ impl Verify {
     }
 }
 
+/// The certificate in a file, which may be another kind of file.
+fn certificate(path: &Path) -> Result<Certificate, Failure> {
+    Certificate::load(path).map_err(|error| match error {
+        CertificateError::Form(_) => Failure::Input(format!(
+            "`{}`: {error}; `aspecta analyze ROBOT --certificate FILE` writes certificates",
+            path.display()
+        )),
+        other => other.into(),
+    })
+}
+
 /// Whether two robots are the same for the arithmetic.
 fn is_same(a: &Robot, b: &Robot) -> bool {
     (a.platform, &a.legs, &a.window) == (b.platform, &b.legs, &b.window)
@@ -61,7 +73,8 @@ fn is_same(a: &Robot, b: &Robot) -> bool {
 
 fn print(out: &mut dyn Write, certificate: &Certificate, verdict: &Verdict) -> Result<(), Failure> {
     let Verdict { sheets, leaves, claims, boxes, joins, seams, .. } = verdict;
-    writeln!(out, "certificate for {}: {leaves} leaves in {sheets} sheets", certificate.robot.name)?;
+    let (leaves, sheets) = (count(*leaves, "leaf", "leaves"), count(*sheets, "sheet", "sheets"));
+    writeln!(out, "certificate for {}: {leaves} in {sheets}", certificate.robot.name)?;
     let held = certificate.window.held();
     let names = certificate.robot.platform.coordinates();
     for (k, value) in held {
@@ -71,8 +84,11 @@ fn print(out: &mut dyn Write, certificate: &Certificate, verdict: &Verdict) -> R
     writeln!(out, "  claims: {inside} inside, {outside} outside, {undecided} undecided,")?;
     writeln!(
         out,
-        "    {} summitless, {} covered, {joins} joins, {seams} seams",
-        claims.summitless, claims.covered
+        "    {} summitless, {} covered, {}, {}",
+        claims.summitless,
+        claims.covered,
+        count(*joins, "join", "joins"),
+        count(*seams, "seam", "seams")
     )?;
     writeln!(out, "  boxes examined: {boxes}")?;
     if !verdict.classes.is_empty() {
@@ -118,9 +134,10 @@ fn restriction(certificate: &Certificate) -> &'static str {
 /// All classes together.
 fn total(claims: &[Claim]) -> String {
     let low: usize = claims.iter().map(|c| c.low).sum();
+    let aspects = |n: usize| count(n, "generalized aspect", "generalized aspects");
     match claims.iter().map(|c| c.high).sum::<Option<usize>>() {
-        Some(high) if high == low => format!("exactly {low} generalized aspects"),
-        Some(high) => format!("at least {low} and at most {high} generalized aspects"),
-        None => format!("at least {low} generalized aspects"),
+        Some(high) if high == low => format!("exactly {}", aspects(low)),
+        Some(high) => format!("at least {low} and at most {}", aspects(high)),
+        None => format!("at least {}", aspects(low)),
     }
 }

@@ -152,3 +152,18 @@ fn robot_files_with_a_mistake() {
     let output = aspecta("check").arg(&path).output().unwrap();
     assert!(output.status.success());
 }
+
+#[test]
+fn a_robot_file_on_stdin_is_checked() {
+    let good = crate::stdout("robots show five-bar");
+    let bad = aspecta("check -").write_stdin(good.replace("crank", "krank")).output().unwrap();
+    let messages = String::from_utf8_lossy(&bad.stderr);
+    assert_eq!(bad.status.code(), Some(2));
+    assert!(messages.contains("stdin:") && messages.contains("krank"), "{messages}");
+    let fine = aspecta("check -").write_stdin(good).output().unwrap();
+    let text = String::from_utf8_lossy(&fine.stdout);
+    assert_eq!(text, "stdin: `five-bar` is a plane-point with 2 legs and 4 working modes\n");
+    let no_text = aspecta("check -").write_stdin(&b"name = \"\xff\""[..]).output().unwrap();
+    let messages = String::from_utf8_lossy(&no_text.stderr);
+    assert!(no_text.status.code() == Some(2) && messages.contains("stdin: cannot be read"), "{messages}");
+}

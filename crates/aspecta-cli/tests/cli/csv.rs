@@ -68,12 +68,16 @@ fn degrees_apply_to_angles_of_a_file_only() {
 fn bad_files() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("poses.csv");
-    let cases: [(&[u8], &str); 9] = [
+    let cases: [(&[u8], &str); 13] = [
         (b"4,7\n4,seven\n", "poses.csv:2: column 2, y: `seven` is not a number"),
         (b"x,y\n4,7\n4,nan\n", "poses.csv:3: column 2, y: NaN is not a finite number"),
         (b"4,7\n\n4,inf\n", "poses.csv:3: column 2, y: inf is not a finite number"),
         (b"4,7\n4,7,1\n", "poses.csv:2: 3 fields, but the first line has 2"),
         (b"1,2,3\n", "poses.csv:1: 3 fields; `x,y` wanted"),
+        (b"4,7\n4\n", "poses.csv:2: 1 field, but the first line has 2"),
+        (b"4;7\n", "poses.csv:1: `4;7` has semicolons and no commas: separate the fields by commas"),
+        (b"x;y\n4;7\n", "poses.csv:1: `x;y` has semicolons"),
+        (b"4,7\n4\t7\n", "poses.csv:2: `4\t7` has tabs and no commas"),
         (b"a,b\n1,2\n", "poses.csv:1: the header `a,b` lacks a column; `x,y` wanted"),
         (b"", "poses.csv holds no rows"),
         (b"x,y\n", "poses.csv holds no rows"),

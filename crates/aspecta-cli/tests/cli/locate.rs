@@ -96,6 +96,25 @@ fn files_are_not_mixed_up() {
     assert_eq!(refused.status.code(), Some(2));
 }
 
+/// A file that is neither a map nor called a robot file: both are said.
+#[test]
+fn what_should_be_a_map_is_said() {
+    let other = MAP.0.path().join("other.aspecta");
+    for text in ["", "x,y\n1,2\n"] {
+        fs::write(&other, text).unwrap();
+        let refused = aspecta("locate --pose 3,6").arg(&other).output().unwrap();
+        let messages = String::from_utf8(refused.stderr).unwrap();
+        assert_eq!(refused.status.code(), Some(2));
+        let wanted = "is not a map, which `aspecta domains ROBOT --save FILE` writes, and not a robot file: ";
+        assert!(messages.contains(wanted), "{messages}");
+    }
+    let robot = MAP.0.path().join("empty.toml");
+    fs::write(&robot, "").unwrap();
+    let refused = aspecta("locate --pose 3,6").arg(&robot).output().unwrap();
+    let messages = String::from_utf8(refused.stderr).unwrap();
+    assert!(messages.contains("missing key `name`") && !messages.contains("map"), "{messages}");
+}
+
 #[test]
 fn without_a_map_it_is_computed() {
     let found = output("locate five-bar --pose 3,6 --mode ++ --cells 50 --budget depth=8");

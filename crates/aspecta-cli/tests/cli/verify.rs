@@ -1,6 +1,6 @@
 //! `aspecta verify`: exit statuses and what is said.
 
-use crate::{aspecta, json};
+use crate::{aspecta, json, stdout};
 use aspecta::aspect::Scale;
 use aspecta::certificate::{Certificate, Claim};
 use aspecta::paving::{Budget, Control, Paving};
@@ -67,9 +67,15 @@ fn a_certificate_of_another_robot_does_not_do() {
 fn what_cannot_be_read_is_bad_input() {
     let directory = tempfile::tempdir().unwrap();
     let text = certificate(1).to_json().unwrap();
+    let robot = stdout("robots show five-bar");
     let version = text.replacen("\"certificate_version\":2", "\"certificate_version\":9", 1);
-    let cases =
-        [(&text[..text.len() / 2], "damaged"), ("{}", "not a certificate"), (version.as_str(), "version 9")];
+    let cases = [
+        (&text[..text.len() / 2], "damaged"),
+        ("{}", "not a certificate"),
+        (version.as_str(), "version 9"),
+        (robot.as_str(), "five-bar.json`: not a certificate"),
+        ("", "`aspecta analyze ROBOT --certificate FILE` writes certificates"),
+    ];
     for (text, complaint) in cases {
         let output = aspecta("verify").arg(file(&directory, text)).output().unwrap();
         let message = String::from_utf8_lossy(&output.stderr);
