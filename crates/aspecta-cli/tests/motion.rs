@@ -297,7 +297,8 @@ fn obstacles() {
     let motion = Motion::new(&robot).then(check.mode, &check.profile).stopped_by(check.obstacle.as_ref());
     let page = Page::new("obstacle", motion);
     assert!(
-        page.text.contains("<strong>In segment 1: leg 2 is stretched or folded (serial singularity).</strong>")
+        page.text
+            .contains("<strong>In segment 1: leg 2 is stretched or folded (serial singularity).</strong>")
     );
     assert!(page.svg("figure11").unwrap().contains("class=\"obstacle\""));
     // Out of reach between two parts that are within.

@@ -93,7 +93,7 @@ impl Assembly {
         }
         if let Some(pair) = chosen {
             let end = |k: usize| Configuration { pose: &solutions[k - 1].pose, mode: solutions[k - 1].mode };
-            if let Some(refused) = planning::refused(&robot, pair.map(end), through, &options) {
+            if let Some(refused) = self.planning.refused(&robot, pair.map(end), through, &options)? {
                 return planning::print(out, &robot, &refused, &self.planning);
             }
         }

@@ -4,12 +4,13 @@ use super::planning::Analysing;
 use super::queries::Labels;
 use crate::failure::{Answer, Failure};
 use crate::input;
-use crate::output::{Align, FORMAT_VERSION, Table, brief, json, plural};
+use crate::output::{Align, FORMAT_VERSION, Table, brief, json};
 use aspecta::aspect::Count;
 use aspecta::motion::modes::ModeGraph;
 use aspecta::robot::Robot;
 use aspecta_cli::figure::graph::mode_graph;
 use aspecta_cli::file;
+use aspecta_cli::words::count;
 use clap::Args;
 use serde::Serialize;
 use std::io::Write;
@@ -80,15 +81,15 @@ fn print(out: &mut dyn Write, robot: &Robot, graph: &ModeGraph, degrees: bool) -
     let labels = Labels::pose(robot, degrees);
     let right = |name: &str| (name.to_owned(), Align::Right);
     let found = match graph.count {
-        Count { low, high: Some(high), .. } if low == high => plural(low, "aspect"),
+        Count { low, high: Some(high), .. } if low == high => count(low, "aspect", "aspects"),
         Count { low, high: Some(high), .. } => format!("{low} to {high} aspects"),
         Count { low, high: None, .. } => {
-            format!("at least {} (finer boxes, --budget, may show more)", plural(low, "aspect"))
+            format!("at least {} (finer boxes, --budget, may show more)", count(low, "aspect", "aspects"))
         }
     };
     let crossings = match graph.crossings.len() {
         0 => "no crossings found".into(),
-        count => format!("{} found, each proved", plural(count, "crossing")),
+        n => format!("{} found, each proved", count(n, "crossing", "crossings")),
     };
     writeln!(out, "{}: {found}, {crossings}", robot.name)?;
     if !graph.unseen.is_empty() {

@@ -61,7 +61,7 @@ impl Plan {
             return self.over_roadmap(out, &robot, (mode, through), [&from, &to], &options);
         }
         let ends = [Configuration { pose: &from, mode }, Configuration { pose: &to, mode: to_mode }];
-        if let Some(refused) = planning::refused(&robot, ends, through, &options) {
+        if let Some(refused) = self.planning.refused(&robot, ends, through, &options)? {
             return planning::print(out, &robot, &refused, &self.planning);
         }
         let modes: &[WorkingMode] = if through { &[] } else { &[mode] };

@@ -62,6 +62,35 @@ impl Analysing {
 const SAMPLES: u32 = 20_000;
 
 impl Planning {
+    /// What the ends of a motion alone tell, which is told before aspects are looked for: why there is none. For robots that are no
+    /// free bodies.
+    pub fn refused(
+        &self,
+        robot: &Robot,
+        [start, goal]: [Configuration<'_>; 2],
+        through: bool,
+        options: &PlanOptions,
+    ) -> Result<Option<Planned>, Failure> {
+        self.is_paved(robot)?;
+        let refusal = robot.slice(&[]).ok().and_then(|window| {
+            if through {
+                return check_ends(robot, &window, [start, goal]).err();
+            }
+            let ends = [start.pose, goal.pose];
+            Planner::check_ends(robot, &window, start.mode, ends, options).err().map(NoRoute::from)
+        });
+        Ok(refusal.map(|refusal| Planned { result: Err(refusal), page: None }))
+    }
+
+    fn is_paved(&self, robot: &Robot) -> Result<(), Failure> {
+        self.samples.map_or(Ok(()), |samples| {
+            Err(Failure::Input(format!(
+                "--samples {samples}: `{}` is no free body, its aspects are paved with boxes (--budget)",
+                robot.name
+            )))
+        })
+    }
+
     /// [`Analysing::with`], for robots that are no free bodies.
     pub fn with<T>(
         &self,
@@ -69,12 +98,7 @@ impl Planning {
         modes: &[WorkingMode],
         work: impl FnOnce(&Analysis, &aspecta::paving::Control<'_>) -> Result<T, Failure>,
     ) -> Result<T, Failure> {
-        if let Some(samples) = self.samples {
-            return Err(Failure::Input(format!(
-                "--samples {samples}: `{}` is no free body, its aspects are paved with boxes (--budget)",
-                robot.name
-            )));
-        }
+        self.is_paved(robot)?;
         self.analysing.with(robot, modes, work)
     }
 
@@ -104,22 +128,6 @@ pub fn plan_over_roadmap(
         Err(NoWay::Refused(refusal)) => Ok(Err(refusal.into())),
         Err(NoWay::Robot(error)) => Err(error.into()),
     }
-}
-
-/// What the ends of a motion alone tell, which is told before aspects are looked for: why there is none.
-pub fn refused(
-    robot: &Robot,
-    [start, goal]: [Configuration<'_>; 2],
-    through: bool,
-    options: &PlanOptions,
-) -> Option<Planned> {
-    let window = robot.slice(&[]).ok()?;
-    let refusal = if through {
-        check_ends(robot, &window, [start, goal]).err()?
-    } else {
-        Planner::check_ends(robot, &window, start.mode, [start.pose, goal.pose], options).err()?.into()
-    };
-    Some(Planned { result: Err(refusal), page: None })
 }
 
 /// What kind of path is wanted.

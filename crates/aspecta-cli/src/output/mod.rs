@@ -82,11 +82,6 @@ fn json_in(out: &mut dyn Write, value: &impl Serialize, layout: impl Formatter) 
     Ok(())
 }
 
-/// `1 aspect`, `2 aspects`.
-pub fn plural(count: usize, noun: &str) -> String {
-    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
-}
-
 /// A message to the user on stderr. There is nobody to tell if stderr is closed.
 pub fn note(message: &str) {
     let _ = writeln!(io::stderr(), "{message}");

@@ -82,10 +82,7 @@ fn unreachable_poses() {
 
 #[test]
 fn six_dimensions_at_once() {
-    refused(
-        "analyze hexa",
-        &["6 degrees of freedom, 6 of them free", "`aspecta analyze hexa --fix roll=0,pitch=0,yaw=0`"],
-    );
+    refused("analyze hexa", &["6 degrees of freedom, 6 of them free", "`--fix roll=0,pitch=0,yaw=0`"]);
 }
 
 #[test]

@@ -67,7 +67,7 @@ impl ModeGraph {
         let unseen = analysis.classes.iter().filter(|class| class.low == 0 && class.high != Some(0));
         let mut graph = Self {
             aspects: entries.collect(),
-            count: analysis.aspects.clone(),
+            count: analysis.aspects,
             unseen: unseen.map(|class| (class.mode, class.det_a)).collect(),
             crossings: crossings(analysis),
             groups: Vec::new(),
