@@ -30,16 +30,9 @@ pub(super) fn robot(file: &RobotFile, text: &str) -> Result<Robot, Fault> {
     check_legs(platform, &kinds).map_err(|e| misfit(file, e))?;
     let legs = file.legs.iter().map(|leg| context.leg(leg)).collect::<Result<Vec<_>, _>>()?;
     let mut robot = Robot::new(words::name(&file.name)?, platform, legs).map_err(|e| misfit(file, e))?;
-    let words = [
-        (&mut robot.title, &file.title),
-        (&mut robot.source, &file.source),
-        (&mut robot.length_unit, &file.length_unit),
-    ];
-    for (field, given) in words {
-        if let Some(text) = given {
-            *field = words::line(text)?.to_owned();
-        }
-    }
+    words::set(&mut robot.title, &file.title)?;
+    words::set(&mut robot.source, &file.source)?;
+    words::set(&mut robot.length_unit, &file.length_unit)?;
     for (name, range) in file.window.entries() {
         if let Some(range) = range {
             let (k, bounds) = context.window(name, range)?;

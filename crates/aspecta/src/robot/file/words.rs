@@ -12,8 +12,16 @@ pub(super) fn name(text: &At<String>) -> Result<&str, Fault> {
     line(text)
 }
 
+/// Replaces `field` by what the file gives, if it does.
+pub(super) fn set(field: &mut String, given: &Option<At<String>>) -> Result<(), Fault> {
+    if let Some(text) = given {
+        *field = line(text)?.to_owned();
+    }
+    Ok(())
+}
+
 /// Words in one line: no control characters, which would break a table or a terminal.
-pub(super) fn line(text: &At<String>) -> Result<&str, Fault> {
+fn line(text: &At<String>) -> Result<&str, Fault> {
     match text.value.contains(char::is_control) {
         true => Err(Fault::new(&text.span, Problem::NotOneLine)),
         false => Ok(&text.value),
