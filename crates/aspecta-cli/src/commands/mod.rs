@@ -30,6 +30,7 @@ mod planning;
 mod queries;
 mod regions;
 mod robots;
+mod route;
 mod schema;
 mod solutions;
 mod solve;
