@@ -41,13 +41,14 @@ pub fn slices(robot: &Robot, window: &Window, sides: [usize; 3], mode: &ModeCell
     let free = window.axes();
     let (across, through) = (free[2], window.ranges.iter().map(|r| r.0).collect::<Vec<_>>());
     let axes = [0, 1].map(|a| pose_axis(robot, window, free[a]));
-    let range = window.ranges[across];
+    let range = extent(mode, window.ranges[across]);
     let panels = Panels::new(axes.clone(), SIDE, 3, 0.0);
     let (width, height) = panels.size(SLICES);
     let size = (width.max(700.0), height + 52.0);
     let text = signs(&mode.mode.to_string());
     let mut svg =
         Svg::new(&format!("slices-mf{}", mode.number), size.0, size.1, &format!("Slices of mode ({text})"));
+    let mut kinds = vec![Kind::Parallel, Kind::Serial];
     for k in 0..SLICES {
         let at = range.0 + (range.1 - range.0) * (k as f64 + 0.5) / SLICES as f64;
         let chart = panels.chart(k);
@@ -58,12 +59,15 @@ pub fn slices(robot: &Robot, window: &Window, sides: [usize; 3], mode: &ModeCell
         let plane = Plane { through, axes: [free[0], free[1]] };
         let sheet = Sheet { robot, mode: mode.mode, plane: &plane };
         let grid = Grid { x: axes[0].range, y: axes[1].range, n: GRID };
-        let lines = sheet.curves(&grid).into_iter().map(|c| (c.kind, c.points)).collect();
+        let lines: Vec<_> = sheet.curves(&grid).into_iter().map(|c| (c.kind, c.points)).collect();
+        if lines.iter().any(|line| line.0 == Kind::Limit) && !kinds.contains(&Kind::Limit) {
+            kinds.push(Kind::Limit);
+        }
         draw_lines(&mut svg, &chart, &lines, [false; 2]);
         chart.frame(&mut svg, &format!("({text}), {}", place(robot, across, at)));
     }
     aspects(&mut svg, mode, [panels.left, size.1 - 30.0], size.0);
-    legend(&mut svg, [panels.left, size.1 - 12.0]);
+    legend(&mut svg, &kinds, [panels.left, size.1 - 12.0]);
     svg.finish()
 }
 
@@ -110,6 +114,15 @@ impl Panels {
     }
 }
 
+/// Where the mode's cells lie across the third coordinate, within the window: elsewhere slices would show nothing.
+fn extent(mode: &ModeCells<'_>, window: (f64, f64)) -> (f64, f64) {
+    let cells = mode.classes.iter().flat_map(|(_, cells)| cells.iter());
+    let hull =
+        cells.fold((f64::INFINITY, f64::NEG_INFINITY), |hull, c| (hull.0.min(c.lo[2]), hull.1.max(c.hi[2])));
+    let range = (hull.0.max(window.0), hull.1.min(window.1));
+    if range.0 < range.1 { range } else { window }
+}
+
 /// What the mode's classes say of the plane `at`: an aspect where either has one.
 fn slice(mode: &ModeCells<'_>, axes: &[Axis; 2], size: [usize; 2], at: f64) -> Raster<Label> {
     let rasters: Vec<_> = mode.classes.iter().map(|(_, cells)| cut(cells, axes, size, at)).collect();
@@ -141,8 +154,15 @@ fn aspects(svg: &mut Svg, mode: &ModeCells<'_>, [mut x, y]: [f64; 2], width: f64
     }
 }
 
-fn legend(svg: &mut Svg, at: [f64; 2]) {
-    let x = swatch(svg, at, UNDECIDED, "undecided cells");
-    let x = sample_line(svg, [x, at[1]], Kind::Parallel, "det A = 0");
-    sample_line(svg, [x, at[1]], Kind::Serial, "det B = 0");
+/// The lines that may be seen.
+fn legend(svg: &mut Svg, kinds: &[Kind], at: [f64; 2]) {
+    let mut x = swatch(svg, at, UNDECIDED, "undecided cells");
+    for &kind in kinds {
+        let name = match kind {
+            Kind::Parallel => "det A = 0",
+            Kind::Serial => "det B = 0",
+            Kind::Limit => "joint limit",
+        };
+        x = sample_line(svg, [x, at[1]], kind, name);
+    }
 }
