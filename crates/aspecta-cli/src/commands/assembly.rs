@@ -100,7 +100,7 @@ impl Assembly {
         if through {
             modes.clear();
         }
-        let found = self.planning.with(&robot, &modes, |analysis, control| {
+        let found = self.planning.paved(&robot)?.with(&robot, &modes, |analysis, control| {
             let modes = assembly_modes(analysis, &q)?;
             let Some([from, to]) = chosen else { return Ok(Found { modes, change: None, explained: None }) };
             let [start, goal] = [from, to].map(|k| {

@@ -1,10 +1,8 @@
 //! `aspecta check`: whether a robot file is right.
 
+use super::doubts::warn_of_architecture;
 use crate::failure::{Answer, Failure};
-use crate::output::note;
-use aspecta::kinematics::seems_architecturally_singular;
 use aspecta::robot::{FileError, Robot};
-use aspecta_cli::doubt::ARCHITECTURE;
 use aspecta_cli::words::count;
 use clap::Args;
 use std::io::{self, Write};
@@ -27,9 +25,7 @@ impl Check {
         let modes = count(robot.working_modes().len(), "working mode", "working modes");
         let (name, platform, legs) = (&robot.name, robot.platform, robot.dof());
         writeln!(out, "{file}: `{name}` is a {platform} with {legs} legs and {modes}")?;
-        if seems_architecturally_singular(&robot, robot.slice(&[]).ok().as_ref()) {
-            note(&format!("warning: {ARCHITECTURE}"));
-        }
+        warn_of_architecture(&robot);
         Ok(Answer::Yes)
     }
 }

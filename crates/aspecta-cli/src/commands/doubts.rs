@@ -1,11 +1,20 @@
 //! Where the bounds on the number of aspects are apart, and why, in 100 columns.
 
 use crate::failure::Failure;
-use crate::output::{Align, Table, brief};
+use crate::output::{Align, Table, brief, note};
 use aspecta::aspect::{Analysis, Doubt, DoubtKind};
-use aspecta_cli::doubt::{largest_first, place, reasons};
+use aspecta::kinematics::seems_architecturally_singular;
+use aspecta::robot::Robot;
+use aspecta_cli::doubt::{ARCHITECTURE, largest_first, place, reasons};
 use aspecta_cli::words::count;
 use std::io::Write;
+
+/// Warns of a robot that is singular wherever it goes.
+pub fn warn_of_architecture(robot: &Robot) {
+    if seems_architecturally_singular(robot) {
+        note(&format!("warning: {ARCHITECTURE}"));
+    }
+}
 
 /// Doubts listed of each kind; the rest is in the JSON.
 const LISTED: usize = 8;

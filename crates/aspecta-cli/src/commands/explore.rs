@@ -1,16 +1,15 @@
 //! `aspecta explore`: the whole pose space of a free body, by a roadmap.
 
 use super::budget;
+use super::doubts::warn_of_architecture;
 use super::queries::Labels;
 use super::watch::watched;
 use crate::failure::{Answer, Failure};
 use crate::input;
 use crate::output::{Align, FORMAT_VERSION, Table, brief, json, note};
-use aspecta::kinematics::seems_architecturally_singular;
 use aspecta::motion::explore::{End, Exploration, ExploredClass, explore};
 use aspecta::paving::Budget;
 use aspecta::robot::Robot;
-use aspecta_cli::doubt::ARCHITECTURE;
 use aspecta_cli::words::count;
 use clap::Args;
 use serde::Serialize;
@@ -66,9 +65,7 @@ impl Explore {
         let robot = input::robot(&self.robot)?;
         let modes = input::modes(&robot, &self.mode)?;
         let effort = budget::effort(self.budget, self.samples)?;
-        if seems_architecturally_singular(&robot, robot.slice(&[]).ok().as_ref()) {
-            note(&format!("warning: {ARCHITECTURE}"));
-        }
+        warn_of_architecture(&robot);
         let found = watched(self.threads, |control| explore(&robot, &modes, &effort, control))??;
         if found.classes.iter().any(|class| class.end == End::Cancelled) {
             note("interrupted: this is what was seen so far");

@@ -10,7 +10,7 @@ use aspecta::motion::modes::ModeGraph;
 use aspecta::robot::Robot;
 use aspecta_cli::figure::graph::mode_graph;
 use aspecta_cli::file;
-use aspecta_cli::words::count;
+use aspecta_cli::words::{between, count};
 use clap::Args;
 use serde::Serialize;
 use std::io::Write;
@@ -80,18 +80,14 @@ impl Modes {
 fn print(out: &mut dyn Write, robot: &Robot, graph: &ModeGraph, degrees: bool) -> Result<(), Failure> {
     let labels = Labels::pose(robot, degrees);
     let right = |name: &str| (name.to_owned(), Align::Right);
-    let found = match graph.count {
-        Count { low, high: Some(high), .. } if low == high => count(low, "aspect", "aspects"),
-        Count { low, high: Some(high), .. } => format!("{low} to {high} aspects"),
-        Count { low, high: None, .. } => {
-            format!("at least {} (finer boxes, --budget, may show more)", count(low, "aspect", "aspects"))
-        }
-    };
+    let Count { low, high, .. } = graph.count;
+    let found = between(low, high, "aspect", "aspects");
+    let finer = if high.is_none() { " (finer boxes, --budget, may show more)" } else { "" };
     let crossings = match graph.crossings.len() {
         0 => "no crossings found".into(),
         n => format!("{} found, each proved", count(n, "crossing", "crossings")),
     };
-    writeln!(out, "{}: {found}, {crossings}", robot.name)?;
+    writeln!(out, "{}: {found}{finer}, {crossings}", robot.name)?;
     if !graph.unseen.is_empty() {
         let unseen: Vec<String> =
             graph.unseen.iter().map(|(mode, sign)| format!("{mode} det A {sign}")).collect();

@@ -3,7 +3,7 @@
 use super::checked_path::PathArgs;
 use super::queries::{Labels, det_a_unit};
 use crate::failure::Failure;
-use crate::output::number;
+use crate::output::{number, unsigned};
 use aspecta::motion::{Joined, Least, Obstacle, PathCheck};
 use aspecta::robot::Robot;
 use aspecta_cli::figure::profile::failure;
@@ -122,6 +122,5 @@ pub fn bounds(least: &Least) -> String {
     let decimals = digits.max(0) as usize;
     let (low, high) = ((least.at_least / unit * scale).floor(), (least.at_most / unit * scale).ceil());
     let tail = if plain { String::new() } else { format!("e{exponent}") };
-    // Adding zero takes the sign from −0.
-    format!("{:.decimals$}{tail} … {:.decimals$}{tail}", low / scale + 0.0, high / scale + 0.0)
+    format!("{:.decimals$}{tail} … {:.decimals$}{tail}", unsigned(low / scale), unsigned(high / scale))
 }

@@ -65,7 +65,7 @@ impl Plan {
             return planning::print(out, &robot, &refused, &self.planning);
         }
         let modes: &[WorkingMode] = if through { &[] } else { &[mode] };
-        let planned = self.planning.with(&robot, modes, |analysis, _| {
+        let planned = self.planning.paved(&robot)?.with(&robot, modes, |analysis, _| {
             let mut planner = Planner::new(analysis);
             let result = if through {
                 let graph = ModeGraph::new(analysis);

@@ -71,7 +71,7 @@ impl Planning {
         through: bool,
         options: &PlanOptions,
     ) -> Result<Option<Planned>, Failure> {
-        self.is_paved(robot)?;
+        self.paved(robot)?;
         let refusal = robot.slice(&[]).ok().and_then(|window| {
             if through {
                 return check_ends(robot, &window, [start, goal]).err();
@@ -82,24 +82,15 @@ impl Planning {
         Ok(refusal.map(|refusal| Planned { result: Err(refusal), page: None }))
     }
 
-    fn is_paved(&self, robot: &Robot) -> Result<(), Failure> {
-        self.samples.map_or(Ok(()), |samples| {
-            Err(Failure::Input(format!(
+    /// How a robot that is no free body is analysed.
+    pub fn paved(&self, robot: &Robot) -> Result<&Analysing, Failure> {
+        match self.samples {
+            None => Ok(&self.analysing),
+            Some(samples) => Err(Failure::Input(format!(
                 "--samples {samples}: `{}` is no free body, its aspects are paved with boxes (--budget)",
                 robot.name
-            )))
-        })
-    }
-
-    /// [`Analysing::with`], for robots that are no free bodies.
-    pub fn with<T>(
-        &self,
-        robot: &Robot,
-        modes: &[WorkingMode],
-        work: impl FnOnce(&Analysis, &aspecta::paving::Control<'_>) -> Result<T, Failure>,
-    ) -> Result<T, Failure> {
-        self.is_paved(robot)?;
-        self.analysing.with(robot, modes, work)
+            ))),
+        }
     }
 
     /// What `work` makes of a free body, with the effort its roadmaps may take.

@@ -4,7 +4,7 @@ use super::queries::{self, Labels, Query, det_a_unit};
 use crate::failure::Failure;
 use crate::input::Columns;
 use crate::output::{Align, Format, Table, exact, number};
-use aspecta::kinematics::Solution;
+use aspecta::kinematics::{Solution, WorkingMode};
 use aspecta::robot::Robot;
 use aspecta_cli::words::count;
 use serde::Serialize;
@@ -165,6 +165,11 @@ pub const SERIAL: &str =
 
 /// The working mode, with 0 for legs at a serial singularity.
 pub fn mode(solution: &Solution) -> String {
-    let sign = |(leg, sign)| if solution.serial_legs.contains(&leg) { '0' } else { sign };
-    (1..).zip(solution.mode.to_string().chars()).map(sign).collect()
+    signs(solution.mode, &solution.serial_legs)
+}
+
+/// The signs of a mode, with 0 for these legs.
+pub fn signs(mode: WorkingMode, serial_legs: &[usize]) -> String {
+    let sign = |(leg, sign)| if serial_legs.contains(&leg) { '0' } else { sign };
+    (1..).zip(mode.to_string().chars()).map(sign).collect()
 }

@@ -1,6 +1,7 @@
 //! `aspecta state`: where a configuration stands among working modes and singularities.
 
 use super::queries::{self, Labels, Query, det_a_unit, queries};
+use super::solutions::signs;
 use super::solve;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
@@ -154,22 +155,16 @@ fn print_table(out: &mut dyn Write, robot: &Robot, found: &[Found], degrees: boo
             let serial = s.serial_measures.iter().copied().fold(f64::INFINITY, f64::min);
             let numbers = [s.det_a, s.condition_a, s.condition_b, s.parallel_measure, serial].map(number);
             let line = f.query.line.unwrap_or_default().to_string();
-            let mode = signs(s);
-            table.row([line, mode].into_iter().chain(numbers).chain([s.singularity.name().into()]));
+            table.row([line, mode(s)].into_iter().chain(numbers).chain([s.singularity.name().into()]));
         }
     }
     write!(out, "{table}")?;
     Ok(())
 }
 
-/// The signs of the B_jj, 0 at a serial singularity.
-fn signs(s: &kinematics::State) -> String {
-    let sign = |(leg, b): (usize, &f64)| match *b {
-        _ if s.serial_legs.contains(&leg) => '0',
-        b if b > 0.0 => '+',
-        _ => '-',
-    };
-    (1..).zip(&s.b).map(sign).collect()
+/// The working mode, with 0 for legs at a serial singularity.
+fn mode(s: &kinematics::State) -> String {
+    signs(WorkingMode::from_signs(s.b.iter().map(|&b| b > 0.0)), &s.serial_legs)
 }
 
 /// One state as a paragraph, with A and B if `matrices`.
@@ -180,8 +175,8 @@ fn print_one(
     degrees: bool,
     matrices: bool,
 ) -> Result<(), Failure> {
-    let mode = s.mode.map_or_else(|| format!("{} (0: serial singularity)", signs(s)), |m| m.to_string());
-    writeln!(out, "\nworking mode  {mode}")?;
+    let serial = if s.mode.is_none() { " (0: serial singularity)" } else { "" };
+    writeln!(out, "\nworking mode  {}{serial}", mode(s))?;
     writeln!(out, "joints        {}", Labels::joints(robot, degrees).sentence(&s.q))?;
     writeln!(
         out,

@@ -4,12 +4,14 @@ use super::doubts;
 use super::queries::Labels;
 use crate::failure::Failure;
 use crate::output::{Align, Table, brief};
-use aspecta::aspect::{Analysis, Aspect, AspectClass, DetSign, EarlierAspects, Held, Measure, Reachable};
+use aspecta::aspect::{
+    Analysis, Aspect, AspectClass, Count, DetSign, EarlierAspects, Held, Measure, Reachable,
+};
 use aspecta::kinematics::WorkingMode;
 use aspecta::paving::Stop;
 use aspecta::robot::Robot;
 use aspecta_cli::report::EARLIER_NEED;
-use aspecta_cli::words::count;
+use aspecta_cli::words::{between, count};
 use std::io::Write;
 
 /// Columns of the terminal that the summary is made for.
@@ -245,13 +247,9 @@ fn run(analysis: &Analysis) -> String {
 
 /// `exactly 10 aspects`: said once more at the end, where a terminal stands still.
 fn found(analysis: &Analysis) -> String {
-    let low = analysis.aspects.low;
-    let aspects = |n: usize| count(n, "aspect", "aspects");
-    match analysis.aspects.high {
-        Some(high) if high == low => format!("exactly {}", aspects(low)),
-        Some(high) => format!("{low} to {}", aspects(high)),
-        None => format!("at least {}", aspects(low)),
-    }
+    let Count { low, high, certified } = analysis.aspects;
+    let exactly = if certified { "exactly " } else { "" };
+    format!("{exactly}{}", between(low, high, "aspect", "aspects"))
 }
 
 /// `n`, `n-m` or `≥ n`.

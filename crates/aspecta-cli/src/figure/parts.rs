@@ -82,25 +82,15 @@ fn width(text: &str) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use aspecta::robot::{Robot, catalogue};
+    use aspecta::robot::catalogue;
 
     /// Three kinds of legs need two lines; every line ends within the picture.
     #[test]
     fn lines_are_as_wide_as_the_picture() {
-        let mixed = r#"
-            name = "mixed"
-            platform = "translating-body"
-            [[legs]]
-            anchor = [0, 0, 0]
-            actuator = { kind = "revolute", crank = 8, rod = 9, axis = [0, 0, 2], zero = [1, 0, 5] }
-            [[legs]]
-            anchor = [0, 0, 0]
-            actuator = { kind = "prismatic", direction = [0, 3, 0], rod = 5 }
-            [[legs]]
-            anchor = [0, 0, 0]
-            actuator = { kind = "strut" }
-            "#;
-        let mixed = entries(&Robot::from_toml(mixed, "mixed.toml").unwrap());
+        let legs = ["delta", "linear-delta", "gough-stewart"];
+        let legs = legs.map(|name| catalogue::find(name).unwrap().legs.swap_remove(0));
+        let mixed = Robot::new("mixed", Platform::TranslatingBody, legs.into()).unwrap();
+        let mixed = entries(&mixed);
         let wrapped = lines(&mixed, 538.0);
         assert_eq!((mixed.len(), wrapped.len()), (5, 2));
         assert_eq!(wrapped.concat(), mixed);

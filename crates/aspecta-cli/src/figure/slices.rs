@@ -48,7 +48,7 @@ pub fn slices(robot: &Robot, window: &Window, sides: [usize; 3], mode: &ModeCell
     let text = signs(&mode.mode.to_string());
     let mut svg =
         Svg::new(&format!("slices-mf{}", mode.number), size.0, size.1, &format!("Slices of mode ({text})"));
-    let mut kinds = vec![Kind::Parallel, Kind::Serial];
+    let mut limits = false;
     for k in 0..SLICES {
         let at = range.0 + (range.1 - range.0) * (k as f64 + 0.5) / SLICES as f64;
         let chart = panels.chart(k);
@@ -60,14 +60,12 @@ pub fn slices(robot: &Robot, window: &Window, sides: [usize; 3], mode: &ModeCell
         let sheet = Sheet { robot, mode: mode.mode, plane: &plane };
         let grid = Grid { x: axes[0].range, y: axes[1].range, n: GRID };
         let lines: Vec<_> = sheet.curves(&grid).into_iter().map(|c| (c.kind, c.points)).collect();
-        if lines.iter().any(|line| line.0 == Kind::Limit) && !kinds.contains(&Kind::Limit) {
-            kinds.push(Kind::Limit);
-        }
+        limits |= lines.iter().any(|line| line.0 == Kind::Limit);
         draw_lines(&mut svg, &chart, &lines, [false; 2]);
         chart.frame(&mut svg, &format!("({text}), {}", place(robot, across, at)));
     }
     aspects(&mut svg, mode, [panels.left, size.1 - 30.0], size.0);
-    legend(&mut svg, &kinds, [panels.left, size.1 - 12.0]);
+    legend(&mut svg, limits, [panels.left, size.1 - 12.0]);
     svg.finish()
 }
 
@@ -154,15 +152,11 @@ fn aspects(svg: &mut Svg, mode: &ModeCells<'_>, [mut x, y]: [f64; 2], width: f64
     }
 }
 
-/// The lines that may be seen.
-fn legend(svg: &mut Svg, kinds: &[Kind], at: [f64; 2]) {
-    let mut x = swatch(svg, at, UNDECIDED, "undecided cells");
-    for &kind in kinds {
-        let name = match kind {
-            Kind::Parallel => "det A = 0",
-            Kind::Serial => "det B = 0",
-            Kind::Limit => "joint limit",
-        };
-        x = sample_line(svg, [x, at[1]], kind, name);
+fn legend(svg: &mut Svg, limits: bool, at: [f64; 2]) {
+    let x = swatch(svg, at, UNDECIDED, "undecided cells");
+    let x = sample_line(svg, [x, at[1]], Kind::Parallel, "det A = 0");
+    let x = sample_line(svg, [x, at[1]], Kind::Serial, "det B = 0");
+    if limits {
+        sample_line(svg, [x, at[1]], Kind::Limit, "joint limit");
     }
 }

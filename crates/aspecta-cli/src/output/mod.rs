@@ -116,6 +116,6 @@ pub fn exact(x: f64) -> String {
 }
 
 /// The number with a zero that has no sign: nobody asks from which side it is one.
-fn unsigned(x: f64) -> f64 {
+pub fn unsigned(x: f64) -> f64 {
     x + 0.0
 }

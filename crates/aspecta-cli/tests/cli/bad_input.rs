@@ -164,3 +164,19 @@ fn a_robot_file_on_stdin_is_checked() {
     let messages = String::from_utf8_lossy(&no_text.stderr);
     assert!(no_text.status.code() == Some(2) && messages.contains("stdin: cannot be read"), "{messages}");
 }
+
+/// A right file of a robot that is of no use: it is told, but not refused.
+#[test]
+fn two_legs_in_one_are_warned_of() {
+    let leg = "[[legs]]\nanchor = [0, 0]\nattachment = [1, 0]\nactuator = { kind = \"strut\" }\n";
+    let other = leg.replace("[0, 0]", "[9, 4]").replace("[1, 0]", "[2, 3]");
+    let head = "name = \"mine\"\nplatform = \"plane-body\"\n";
+    let checked = |third: &str| {
+        let output = aspecta("check -").write_stdin([head, leg, &other, third].concat()).output().unwrap();
+        assert!(output.status.success());
+        String::from_utf8(output.stderr).unwrap()
+    };
+    assert_eq!(checked(&leg.replace("[0, 0]", "[0, 8]")), "");
+    let warning = checked(leg);
+    assert!(warning.starts_with("warning: det A vanishes at every pose that was looked at"), "{warning}");
+}

@@ -64,6 +64,19 @@ fn people_read_the_verdict() {
     assert!(text.contains("singularity-free  yes, certified") && text.contains("min |det A|"), "{text}");
 }
 
+/// JSON names what fails and counts legs and limits from 1, as the text does.
+#[test]
+fn a_joint_limit_is_named() {
+    let beyond = "x,y,phi\n5,12,1\n5,40,1\n";
+    let (document, code) = check("3-rpr", beyond, "---");
+    assert_eq!(code, Some(1));
+    let wanted = serde_json::json!({ "kind": "limit", "leg": 2, "limit": 1 });
+    assert_eq!(document["obstacle"]["constraint"], wanted);
+    let (_directory, path) = file(beyond);
+    let text = aspecta("check-path 3-rpr --mode ---").arg(&path).output().unwrap().stdout;
+    assert!(String::from_utf8(text).unwrap().contains("leg 2 meets its actuator limit"));
+}
+
 /// The way back in mode ++- is refused, and where it first fails is said.
 #[test]
 fn table_4_reversed_in_another_mode_is_refused() {

@@ -86,6 +86,18 @@ fn the_graph_of_modes_is_printed_and_drawn() {
     assert_eq!(graph["groups"].as_array().unwrap().len(), 2);
 }
 
+/// Boxes that are too coarse do not say how many aspects there are, nor that a class has none.
+#[test]
+fn coarse_modes_say_what_they_leave_open() {
+    let shown = stdout("modes five-bar --budget depth=3");
+    assert!(shown.starts_with("five-bar: at least 2 aspects (finer boxes"), "{shown}");
+    assert!(shown.contains("no aspect was seen, and none is excluded, in ++ det A -, "), "{shown}");
+    let graph = json("modes five-bar --budget depth=3 --json");
+    assert!(graph["count"]["high"].is_null() && graph["count"]["low"] == 2, "{graph}");
+    assert_eq!(graph["unseen"].as_array().unwrap().len(), 6);
+    assert_eq!(json("modes five-bar --budget depth=9 --json")["unseen"], serde_json::json!([]));
+}
+
 #[test]
 fn sets_of_poses_are_traversed() {
     let shown = stdout("traverse five-bar --box 2:6,8:10 --budget depth=9");

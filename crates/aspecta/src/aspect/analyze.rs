@@ -91,7 +91,7 @@ fn analyze_here(robot: &Robot, options: &Options, control: &Control<'_>) -> Resu
     let modes = if options.modes.is_empty() { &all_modes } else { &options.modes };
     let parallel_rods = parallel_rods(robot, &window);
     let uncharted_folds: Vec<usize> = uncharted_folds(robot, &window).iter().map(|j| j + 1).collect();
-    let architecturally_singular = seems_architecturally_singular(robot, Some(&window));
+    let architecturally_singular = seems_architecturally_singular(robot);
     let hopeful = parallel_rods.is_empty() && uncharted_folds.is_empty() && !architecturally_singular;
     let budget = bounded(options.budget, hopeful);
     let mut passes: Vec<Pass> = Vec::new();

@@ -197,7 +197,7 @@ impl<'a> Atlas<'a> {
             let all = self.sheets[0].nodes.len() as u32;
             let split: Vec<Leaf> =
                 (first..all).filter(|&at| coarse(&self.sheets[0], at)).map(|at| (0, at)).collect();
-            if split.is_empty() || !even.reached {
+            if split.is_empty() {
                 return even;
             }
             if split.len() > limits.affordable(self) || limits.is_over(self.boxes()) {
@@ -206,8 +206,10 @@ impl<'a> Atlas<'a> {
             let done = self.boxes();
             let total = done + split.len() as u64;
             (limits.control.progress)(Progress { stage: "paving evenly", done, total });
-            even.reached = self.split(&split, limits).is_some();
             (first, even.changed) = (all, true);
+            if self.split(&split, limits).is_none() {
+                return Even { reached: false, ..even };
+            }
         }
     }
 

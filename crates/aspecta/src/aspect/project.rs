@@ -6,9 +6,9 @@ use crate::kinematics::leg::Drive;
 use crate::kinematics::modal::closures;
 use crate::kinematics::placement::Placement;
 use crate::kinematics::{WorkingMode, for_platform};
-use crate::num::{Interval, Scalar};
+use crate::num::Interval;
 use crate::paving::Paving;
-use crate::robot::{Leg, Limit, Robot};
+use crate::robot::{Leg, Robot};
 use arrayvec::ArrayVec;
 
 /// The smallest range that holds all the intervals; on a circle of 2π, the complement of the widest gap
@@ -59,18 +59,18 @@ type Image = ArrayVec<Interval, 6>;
 /// Adds the images of the given boxes to a union per coordinate. The image of a box that holds several of them is looked at first: if it
 /// adds nothing, neither do theirs.
 fn add_images(paving: &Paving, boxes: &[u32], unions: &mut [Union], image: &impl Fn(u32) -> Image) {
-    let mut mine = vec![Holds::None; paving.nodes.len()];
+    let mut mine = vec![Holds::Nothing; paving.nodes.len()];
     boxes.iter().for_each(|&node| mine[node as usize] = Holds::Itself);
     // Children come after their parent.
     for at in (0..paving.nodes.len()).rev().filter(|&at| paving.nodes[at].first_child != 0) {
-        let below = paving.children(at as u32).any(|child| mine[child as usize] != Holds::None);
-        if below && mine[at] == Holds::None {
-            mine[at] = Holds::Some;
+        let below = paving.children(at as u32).any(|child| mine[child as usize] != Holds::Nothing);
+        if below && mine[at] == Holds::Nothing {
+            mine[at] = Holds::Below;
         }
     }
     let mut stack = vec![0];
     while let Some(at) = stack.pop() {
-        if mine[at as usize] == Holds::None {
+        if mine[at as usize] == Holds::Nothing {
             continue;
         }
         let ranges = image(at);
@@ -87,8 +87,11 @@ fn add_images(paving: &Paving, boxes: &[u32], unions: &mut [Union], image: &impl
 /// Which boxes of a set a node holds.
 #[derive(Clone, Copy, PartialEq)]
 enum Holds {
-    None,
-    Some,
+    /// None of them.
+    Nothing,
+    /// Some of those it was split into.
+    Below,
+    /// It is one of them.
     Itself,
 }
 
@@ -101,7 +104,7 @@ pub(super) fn w_bounds(robot: &Robot, sheets: &[Paving], boxes: &[Leaf]) -> Vec<
             // Near a pole of the pitch roll and yaw may be anything.
             (lo, hi) if x.width() >= hi - lo => Interval::new(lo, hi),
             _ if window.glued[k] => x,
-            (lo, hi) => Interval::new(x.lo.max(lo).min(hi), x.hi.min(hi).max(lo)),
+            range => clamped(x, range),
         };
         let image = |node| poses(robot, sheets, (sheet, node)).into_iter().enumerate().map(within).collect();
         let here: Vec<u32> = boxes.iter().filter(|leaf| leaf.0 == sheet).map(|leaf| leaf.1).collect();
@@ -113,7 +116,7 @@ pub(super) fn w_bounds(robot: &Robot, sheets: &[Paving], boxes: &[Leaf]) -> Vec<
 /// Bounds, per joint coordinate, that certainly hold g_s over the given boxes, all inside mode `mode`.
 pub(super) fn q_bounds(robot: &Robot, paving: &Paving, mode: WorkingMode, boxes: &[u32]) -> Vec<(f64, f64)> {
     let mut unions = vec![Union::default(); robot.dof()];
-    let limits: Vec<Option<Interval>> = robot.legs.iter().map(driven_range).collect();
+    let limits: Vec<Option<Interval>> = robot.legs.iter().map(Leg::drive_enclosure).collect();
     let within = |(j, x): (usize, Interval)| limits[j].map_or(x, |limit| common(limit, x, &robot.legs[j]));
     let image = |node| {
         let joints: Image = for_platform!(robot.platform, joints_over(robot, paving, mode, node));
@@ -142,23 +145,15 @@ fn joints_over<const D: usize, const N: usize>(
     (0..N).map(joint).collect()
 }
 
-/// What the limits of a leg leave its driven joint.
-fn driven_range(leg: &Leg) -> Option<Interval> {
-    leg.limits.iter().find_map(|limit| match limit {
-        Limit::ActuatorAngle { middle, half_cos } => {
-            let half = Interval::angle(*half_cos, (Interval::point(1.0) - half_cos.square()).sqrt())?;
-            let middle = Interval::angle(middle.0, middle.1)?;
-            Some((middle - half).hull(middle + half))
-        }
-        Limit::ActuatorLength { min, max } => Some(min.hull(*max)),
-        _ => None,
-    })
+/// The part of an interval within a range that it reaches into.
+fn clamped(x: Interval, (lo, hi): (f64, f64)) -> Interval {
+    Interval::new(x.lo.clamp(lo, hi), x.hi.clamp(lo, hi))
 }
 
 /// What a range has in common with a limit; angles may lie full turns apart.
 fn common(limit: Interval, x: Interval, leg: &Leg) -> Interval {
     if !leg.actuator.is_angle() {
-        return Interval::new(x.lo.max(limit.lo).min(x.hi), x.hi.min(limit.hi).max(x.lo));
+        return clamped(x, (limit.lo, limit.hi));
     }
     if x.width() >= std::f64::consts::TAU {
         return limit;
@@ -197,7 +192,7 @@ mod tests {
             half_cos: Interval::point(half.cos()),
         };
         leg.limits = vec![arc(3.0, 0.5)];
-        let limit = driven_range(&leg).unwrap();
+        let limit = leg.drive_enclosure().unwrap();
         assert!((limit.lo - 2.5).abs() < 1e-12 && (limit.hi - 3.5).abs() < 1e-12);
         // The same angles, a full turn further on.
         let shared = common(limit, Interval::new(-3.9, -2.9), &leg);
@@ -206,7 +201,7 @@ mod tests {
         // Two parts are left as they are.
         leg.limits = vec![arc(3.0, 3.0)];
         let around = Interval::new(-1.0, 1.0);
-        assert_eq!(common(driven_range(&leg).unwrap(), around, &leg), around);
+        assert_eq!(common(leg.drive_enclosure().unwrap(), around, &leg), around);
     }
 
     #[test]

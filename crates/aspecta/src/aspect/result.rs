@@ -38,7 +38,7 @@ pub struct Analysis {
     pub classes: Vec<AspectClass>,
     /// What keeps the bounds apart, where they do not meet; empty if they do.
     pub doubts: Vec<Doubt>,
-    /// Whether det A vanishes at all poses that were drawn at random ([`crate::kinematics::seems_architecturally_singular`], numerical): then nothing is
+    /// Whether the robot seems to be singular wherever it goes ([`crate::kinematics::seems_architecturally_singular`], numerical): then nothing is
     /// ever decided.
     pub architecturally_singular: bool,
     /// Surfaces on which det A vanishes to higher order: a reason for doubts that no refinement removes.

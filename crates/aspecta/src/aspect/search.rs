@@ -117,8 +117,7 @@ impl<'a> Search<'a> {
             let (total, left) = (self.counted.len() as u64, self.counted.iter().filter(open).count() as u64);
             (limits.control.progress)(Progress { stage: "joining pieces", done: total - left, total });
             let split: Vec<Leaf> = split.into_iter().collect();
-            let mut fresh = self.atlas.split(&split, limits);
-            afforded &= fresh.is_some();
+            let Some(mut fresh) = self.atlas.split(&split, limits) else { break };
             // Ways are few: they are followed several levels down before the pieces are counted again.
             let torn = self.counted.iter().filter(open).fold(0, |torn, (class, _)| torn | class.bit);
             let mut tips: Vec<Leaf> = ways.into_iter().collect();
@@ -127,12 +126,15 @@ impl<'a> Search<'a> {
                 if tips.len() > limits.affordable(&self.atlas) {
                     break;
                 }
-                let Some((all, finer)) = fresh.as_mut().zip(self.atlas.split(&tips, limits)) else { break };
-                all.extend(finer);
+                let Some(finer) = self.atlas.split(&tips, limits) else { break };
+                fresh.extend(finer);
             }
-            afforded &= self.atlas.uncover(fresh.unwrap_or_default(), limits);
+            afforded &= self.atlas.uncover(fresh, limits);
             self.recount(limits, |counted| !counted.is_exact());
         }
+        // Some boxes were split before the limits ended it.
+        self.recount(limits, |counted| !counted.is_exact());
+        false
     }
 
     /// Boxes of all classes that may still be split.

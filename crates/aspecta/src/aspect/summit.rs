@@ -39,6 +39,7 @@ use climb::can_climb;
 use frame::Frame;
 use leg::LegPart;
 use rayon::prelude::*;
+use std::cell::LazyCell;
 use view::View;
 
 /// More constraints than any robot file can bring to bear on one box at once.
@@ -65,6 +66,7 @@ pub(super) fn summitless<const D: usize, const N: usize, const M: usize>(
     proved
 }
 
+/// What `look` finds of each box, eight boxes at a time.
 fn by_eights<T: Send, const D: usize, const N: usize, const M: usize>(
     robot: &Robot,
     paving: &Paving,
@@ -116,6 +118,8 @@ impl<'a, const D: usize, const N: usize, const M: usize> Eight<'a, D, N, M> {
     /// With the range of h cut into parts, and then to second order.
     fn look_closer(&self) -> Vec<ClassSet> {
         let mut proved = self.by_parts();
+        let regular =
+            LazyCell::new(|| std::array::from_fn(|j| self.view.leg(j, self.view.heights[j], [false; LANES])));
         for (l, &(node, _)) in
             self.boxes.iter().enumerate().filter(|(_, b)| self.view.paving.depth_of(b.0) >= DEEP)
         {
@@ -123,7 +127,7 @@ impl<'a, const D: usize, const N: usize, const M: usize> Eight<'a, D, N, M> {
             for (m, &mode) in
                 self.view.paving.modes.iter().enumerate().filter(|(m, _)| left >> (2 * m) & 3 != 0)
             {
-                proved[l] |= left & self.saddles(node, l, (m, mode));
+                proved[l] |= left & self.saddles(&regular, node, l, (m, mode));
             }
         }
         proved.into_iter().take(self.boxes.len()).collect()
@@ -195,16 +199,21 @@ impl<'a, const D: usize, const N: usize, const M: usize> Eight<'a, D, N, M> {
         proved
     }
 
-    /// The classes of a mode without a summit in one box by the second-order test ([`no_local_maximum`]).
-    fn saddles(&self, node: u32, lane: usize, (m, mode): (usize, WorkingMode)) -> ClassSet {
+    /// The classes of a mode without a summit in one box by the second-order test ([`no_local_maximum`]), none of the `legs` being singular.
+    fn saddles(
+        &self,
+        legs: &[LegPart<N, M>; N],
+        node: u32,
+        lane: usize,
+        (m, mode): (usize, WorkingMode),
+    ) -> ClassSet {
         let view = &self.view;
-        let legs = std::array::from_fn(|j| view.leg(j, view.heights[j], [false; LANES]));
-        let Some(frame) = Frame::new(view, &legs, lane) else { return 0 };
+        let Some(frame) = Frame::new(view, legs, lane) else { return 0 };
         let least = view
-            .constraints(&legs, &frame, mode, lane)
+            .constraints(legs, &frame, mode, lane)
             .iter()
             .fold(f64::INFINITY, |least, g| least.min(g.value.lo));
-        let det = view.determinant(&legs, mode).growth(&frame, mode, view.scale, lane).value;
+        let det = view.determinant(legs, mode).growth(&frame, mode, view.scale, lane).value;
         if least <= 0.0 || det.magnitude() >= least {
             return 0;
         }

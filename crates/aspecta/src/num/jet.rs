@@ -64,28 +64,37 @@ impl<T: Scalar, const N: usize> Neg for Jet<T, N> {
     }
 }
 
-/// `operator!(Add::add(a, b) -> value, k -> slope)`: the operator on references, within: jets over packs take kilobytes, and are not to be
-/// copied for every operation.
-macro_rules! operator {
-    ($operator:ident::$method:ident($a:ident, $b:ident) -> $value:expr, |$v:ident, $k:ident| $slope:expr) => {
-        impl<T: Scalar, const N: usize> $operator for Jet<T, N> {
-            type Output = Self;
-            #[inline(always)]
-            fn $method(self, b: Self) -> Self {
-                #[inline]
-                fn of<T: Scalar, const N: usize>($a: &Jet<T, N>, $b: &Jet<T, N>) -> Jet<T, N> {
-                    let $v = $value;
-                    Jet { value: $v, gradient: each!(|$k| $slope) }
-                }
-                of(&self, &b)
-            }
-        }
-    };
+impl<T: Scalar, const N: usize> Add for Jet<T, N> {
+    type Output = Self;
+    fn add(self, b: Self) -> Self {
+        Self { value: self.value + b.value, gradient: each!(|k| self.gradient[k] + b.gradient[k]) }
+    }
 }
-operator!(Add::add(a, b) -> a.value + b.value, |_value, k| a.gradient[k] + b.gradient[k]);
-operator!(Sub::sub(a, b) -> a.value - b.value, |_value, k| a.gradient[k] - b.gradient[k]);
-operator!(Mul::mul(a, b) -> a.value * b.value, |_value, k| a.gradient[k] * b.value + a.value * b.gradient[k]);
-operator!(Div::div(a, b) -> a.value / b.value, |value, k| (a.gradient[k] - value * b.gradient[k]) / b.value);
+
+impl<T: Scalar, const N: usize> Sub for Jet<T, N> {
+    type Output = Self;
+    fn sub(self, b: Self) -> Self {
+        Self { value: self.value - b.value, gradient: each!(|k| self.gradient[k] - b.gradient[k]) }
+    }
+}
+
+impl<T: Scalar, const N: usize> Mul for Jet<T, N> {
+    type Output = Self;
+    fn mul(self, b: Self) -> Self {
+        Self {
+            value: self.value * b.value,
+            gradient: each!(|k| self.gradient[k] * b.value + self.value * b.gradient[k]),
+        }
+    }
+}
+
+impl<T: Scalar, const N: usize> Div for Jet<T, N> {
+    type Output = Self;
+    fn div(self, b: Self) -> Self {
+        let value = self.value / b.value;
+        Self { value, gradient: each!(|k| (self.gradient[k] - value * b.gradient[k]) / b.value) }
+    }
+}
 
 #[cfg(test)]
 mod tests {

@@ -223,6 +223,19 @@ impl Leg {
         })
     }
 
+    /// [`Leg::drive_range`], certainly held: half-width and middle are those of the limit, not of rounded angles.
+    pub fn drive_enclosure(&self) -> Option<Interval> {
+        self.limits.iter().find_map(|limit| match limit {
+            Limit::ActuatorAngle { middle, half_cos } => {
+                let half = Interval::angle(*half_cos, (Interval::point(1.0) - half_cos.square()).sqrt())?;
+                let middle = Interval::angle(middle.0, middle.1)?;
+                Some((middle - half).hull(middle + half))
+            }
+            Limit::ActuatorLength { min, max } => Some(min.hull(*max)),
+            _ => None,
+        })
+    }
+
     /// The limits of a driven length, if it has any: (min, max).
     pub fn length_range(&self) -> Option<(Interval, Interval)> {
         self.limits.iter().find_map(|l| match l {
