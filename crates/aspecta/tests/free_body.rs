@@ -316,5 +316,5 @@ fn what_cannot_be_analysed_is_refused_with_a_slice_that_can() {
     assert_eq!(hold, "z=-600.5,pitch=0,yaw=0");
     assert!(attempt(&[(3, 0.0), (4, 0.0), (5, 0.0)], false).is_ok());
     let slice = [(3, 0.0), (4, 0.0), (5, 0.0)];
-    assert!(matches!(attempt(&slice, true), Err(AnalysisError::Certificate { dof: 6, .. })));
+    assert!(matches!(attempt(&slice, true), Err(AnalysisError::Certificate { modes: 64, .. })));
 }

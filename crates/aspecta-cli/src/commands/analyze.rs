@@ -23,7 +23,7 @@ pub struct Analyze {
     /// Write report.html and its figures into this directory
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Write the proof of the count into this file, for `aspecta verify`
+    /// Write the proof of the count into this file, for `aspecta verify`: of up to 8 working modes (`--mode`)
     #[arg(long, value_name = "FILE")]
     certificate: Option<PathBuf>,
     /// When to stop before the bounds meet, whatever comes first: 30s | 5min | 2e6boxes | depth=9 | res=0.1, separated

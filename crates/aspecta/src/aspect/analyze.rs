@@ -37,7 +37,7 @@ pub struct Options {
     /// those of these modes, and Definitions 5 and 6 are left out, as they are for more modes than one pass takes
     /// ([`crate::paving::MODES`]).
     pub modes: Vec<WorkingMode>,
-    /// Whether to keep the proof: [`Analysis::certificate`]. For up to three degrees of freedom.
+    /// Whether to keep the proof: [`Analysis::certificate`]. For up to [`crate::paving::MODES`] working modes.
     pub certificate: bool,
 }
 
@@ -61,7 +61,7 @@ pub struct Options {
 ///
 /// # Errors
 /// [`AnalysisError`] if the workspace is unbounded or empty, more than three coordinates are free, there is no such slice or no such
-/// mode, or no certificate for such a robot.
+/// mode, or too many modes for a certificate.
 pub fn analyze(robot: &Robot, options: &Options, control: &Control<'_>) -> Result<Analysis, AnalysisError> {
     with_deep_stacks(robot, || analyze_here(robot, options, control))
 }

@@ -2,6 +2,7 @@
 
 use super::analyze::Options;
 use crate::kinematics::WorkingMode;
+use crate::paving::MODES;
 use crate::robot::{Robot, SliceError};
 
 /// Why a robot cannot be analysed.
@@ -35,13 +36,13 @@ pub enum AnalysisError {
     },
     /// No certificate can be made.
     #[error(
-        "robot `{robot}` has {dof} degrees of freedom, and certificates are made and verified for up to 3: analyse it without one"
+        "a certificate holds up to {MODES} working modes, and {modes} of robot `{robot}` are analysed: choose some with `--mode`"
     )]
     Certificate {
         /// Robot name.
         robot: String,
-        /// Its degrees of freedom.
-        dof: usize,
+        /// How many working modes are analysed.
+        modes: usize,
     },
 }
 
@@ -61,8 +62,9 @@ pub(super) fn refuse(robot: &Robot, options: &Options) -> Result<(), AnalysisErr
         let hold = all.map(hold).collect::<Vec<_>>().join(",");
         return Err(AnalysisError::Dimension { robot: robot.name.clone(), dof, free: free.len(), hold });
     }
-    if options.certificate && dof > MOST_FREE {
-        return Err(AnalysisError::Certificate { robot: robot.name.clone(), dof });
+    let modes = if options.modes.is_empty() { robot.working_modes().len() } else { options.modes.len() };
+    if options.certificate && modes > MODES {
+        return Err(AnalysisError::Certificate { robot: robot.name.clone(), modes });
     }
     Ok(())
 }

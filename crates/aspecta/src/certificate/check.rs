@@ -118,7 +118,8 @@ impl Certificate {
         holds(
             ranges().any(|r| r.0 < r.1),
             "all coordinates of the window are held: there is nothing to analyse",
-        )
+        )?;
+        holds(ranges().filter(|r| r.0 < r.1).count() <= 3, "more than three coordinates of the window vary")
     }
 
     fn check_modes(&self, n: usize) -> Result<(), Unsound> {
@@ -202,7 +203,6 @@ fn sane(x: &Interval) -> bool {
 pub(crate) fn check_robot(robot: &Robot) -> Result<(), Unsound> {
     Robot::new(&robot.name, robot.platform, robot.legs.clone())?;
     let n = robot.dof();
-    holds(n <= 3, "aspects are certified for robots of 2 and 3 degrees of freedom")?;
     wanted("robot.window", robot.window.len(), n)?;
     holds(
         robot.window.iter().flatten().all(|r| usable(r.0) && usable(r.1) && r.0 <= r.1),

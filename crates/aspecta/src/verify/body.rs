@@ -1,7 +1,7 @@
 //! The robot at a configuration: f, ∂f/∂q, the row of A, H and the limits of each leg, from coordinates.
 //!
 //! Written for any scalar and independently of `kinematics`, but for the leg equation itself. Points have D = 2 or 3
-//! coordinates; there are up to three legs and coordinates, and entries beyond are zero.
+//! coordinates; there are up to six legs and coordinates, and entries beyond are zero.
 
 use crate::kinematics::chart::{Chain, Chart};
 use crate::kinematics::leg::equation;
@@ -9,7 +9,7 @@ use crate::num::{Interval, Jet, Scalar};
 use crate::robot::{Actuator, Leg, Limit, Platform, Robot};
 
 /// Most coordinates, and most legs.
-pub(super) const MOST: usize = 3;
+pub(super) const MOST: usize = 6;
 
 /// The platform where the coordinates put it.
 pub(super) struct Body<'a, T, const D: usize> {
@@ -82,7 +82,7 @@ impl<'a, T: Scalar, const D: usize> Body<'a, T, D> {
         match chart {
             Chart::Chain(chain) => body.turn_by(chain, y),
             Chart::Pose if robot.platform == Platform::TurningBody => {}
-            Chart::Pose => body.origin.copy_from_slice(&y[..D]),
+            Chart::Pose => body.origin = std::array::from_fn(|k| y[k]),
             Chart::Fold(fold) => {
                 let leg = &robot.legs[fold.leg];
                 let (sin, cos) = y[0].sin_cos();
@@ -179,23 +179,24 @@ impl<'a, T: Scalar, const D: usize> Body<'a, T, D> {
         let (zero, one) = (T::zero(), T::constant(Interval::point(1.0)));
         let unit = |i: usize| std::array::from_fn(|k| if i == k { one } else { zero });
         let arm = self.arm(leg);
-        let base: [[T; D]; MOST] = match self.robot.platform {
-            Platform::PlanePoint | Platform::TranslatingBody => {
-                std::array::from_fn(|i| if i < D { unit(i) } else { [zero; D] })
-            }
-            Platform::PlaneBody => {
-                let mut about = [zero; D];
-                (about[0], about[1]) = (-arm[1], arm[0]);
-                [unit(0), unit(1), about]
-            }
-            // e_i × arm.
-            _ => std::array::from_fn(|i| {
-                let mut v = [zero; D];
-                (v[(i + 1) % 3], v[(i + 2) % 3]) = (-arm[(i + 2) % 3], arm[(i + 1) % 3]);
-                v
-            }),
+        // e_i × arm.
+        let about = |i: usize| {
+            let mut v = [zero; D];
+            (v[(i + 1) % 3], v[(i + 2) % 3]) = (-arm[(i + 2) % 3], arm[(i + 1) % 3]);
+            v
         };
-        base.map(|v| into_frame(leg, &v))
+        let in_base = |i: usize| match self.robot.platform {
+            Platform::PlaneBody if i == 2 => {
+                let mut v = [zero; D];
+                (v[0], v[1]) = (-arm[1], arm[0]);
+                v
+            }
+            Platform::TurningBody => about(i),
+            Platform::FreeBody if i >= D => about(i - D),
+            _ => unit(i),
+        };
+        let n = self.robot.dof();
+        std::array::from_fn(|i| if i < n { into_frame(leg, &in_base(i)) } else { [zero; D] })
     }
 
     /// H of leg j, given C − A in its frame: the discriminant of its equation. With d = (α, β, γ), f = k − a cos q − b sin q
@@ -228,15 +229,12 @@ impl<'a, T: Scalar, const D: usize> Body<'a, T, D> {
             Some(f) => (f.span, velocities.map(|v| turned(f.cos, -f.sin, &v)), T::zero()),
             None => (*span, velocities, q),
         };
-        let n = self.robot.dof();
-        let jets: [Jet<T, 4>; D] = std::array::from_fn(|k| Jet {
-            value: d[k],
-            gradient: std::array::from_fn(|i| if i < n { moves[i][k] } else { T::zero() }),
-        });
+        let jets: [Jet<T, 4>; D] = std::array::from_fn(|k| Jet::variable(d[k], k));
         let f = equation(&leg.actuator, &jets, Jet::variable(at, 3));
         let slope = f.gradient[3];
         let limits = leg.limits.iter().map(|limit| self.margin(j, limit, span, q, slope)).collect();
-        let row = std::array::from_fn(|i| f.gradient[i]);
+        // ∂f/∂X by way of C − A.
+        let row = moves.map(|v| (1..D).fold(f.gradient[0] * v[0], |sum, k| sum + f.gradient[k] * v[k]));
         LegState { equation: f.value, slope, row, limits }
     }
 
@@ -310,8 +308,8 @@ impl<'a, T: Scalar, const D: usize> Body<'a, T, D> {
 
 impl Body<'_, Interval, 3> {
     /// The pose of a platform that turns about a point, as far as these are small intervals away from the poles of the pitch; else anything.
-    pub(super) fn roll_pitch_yaw(&self) -> [Interval; MOST] {
-        let Some([x, y, z]) = self.rotation else { return [Interval::ENTIRE; MOST] };
+    pub(super) fn roll_pitch_yaw(&self) -> [Interval; 3] {
+        let Some([x, y, z]) = self.rotation else { return [Interval::ENTIRE; 3] };
         let angle = |cos, sin| Interval::angle(cos, sin).unwrap_or(Interval::ENTIRE);
         [angle(z[2], y[2]), angle((x[0].square() + x[1].square()).sqrt(), -x[2]), angle(x[0], x[1])]
     }
@@ -326,8 +324,9 @@ fn rotation<T: Scalar, const D: usize>(platform: Platform, y: &[T; MOST]) -> Opt
             (columns[0][0], columns[0][1]) = (cos, sin);
             (columns[1][0], columns[1][1]) = (-sin, cos);
         }
-        Platform::TurningBody => {
-            let ((sr, cr), (sp, cp), (sy, cy)) = (y[0].sin_cos(), y[1].sin_cos(), y[2].sin_cos());
+        _ => {
+            let [roll, pitch, yaw] = platform.turns()?;
+            let ((sr, cr), (sp, cp), (sy, cy)) = (y[roll].sin_cos(), y[pitch].sin_cos(), y[yaw].sin_cos());
             // R_z(yaw) R_y(pitch) R_x(roll), the rightmost factor first.
             let about_x = |v: [T; 3]| [v[0], cr * v[1] - sr * v[2], sr * v[1] + cr * v[2]];
             let about_y = |v: [T; 3]| [cp * v[0] + sp * v[2], v[1], cp * v[2] - sp * v[0]];
@@ -338,7 +337,6 @@ fn rotation<T: Scalar, const D: usize>(platform: Platform, y: &[T; MOST]) -> Opt
                 columns[i].copy_from_slice(&about_z(about_y(about_x(unit))));
             }
         }
-        _ => return None,
     }
     Some(columns)
 }

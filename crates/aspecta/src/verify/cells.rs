@@ -1,7 +1,6 @@
 //! The boxes of a sheet and which of them touch.
 
-use super::body::MOST;
-use super::view::Coordinates;
+use super::view::{AXES, Coordinates};
 use crate::certificate::{DEEPEST, Entry, Leaf, Tree};
 use crate::num::Interval;
 use crate::robot::Window;
@@ -10,7 +9,7 @@ use crate::robot::Window;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cell {
     pub claims: Leaf,
-    corner: [u32; MOST],
+    corner: [u32; AXES],
     depth: u32,
 }
 
@@ -28,11 +27,11 @@ impl Cells {
     pub(super) fn new(tree: &Tree, window: Window) -> Self {
         let axes = window.axes();
         let mut cells = Self { window, axes, leaves: Vec::new(), entries: Vec::with_capacity(tree.0.len()) };
-        cells.grow(tree, [0; MOST], 0);
+        cells.grow(tree, [0; AXES], 0);
         cells
     }
 
-    fn grow(&mut self, tree: &Tree, corner: [u32; MOST], depth: u32) {
+    fn grow(&mut self, tree: &Tree, corner: [u32; AXES], depth: u32) {
         let at = self.entries.len();
         self.entries.push((1, self.leaves.len() as u32));
         match tree.0[at] {
@@ -55,7 +54,7 @@ impl Cells {
         if index == parts { hi } else { lo + (hi - lo) * (f64::from(index) / f64::from(parts)) }
     }
 
-    fn bounds(&self, corner: &[u32; MOST], depth: u32) -> Coordinates {
+    fn bounds(&self, corner: &[u32; AXES], depth: u32) -> Coordinates {
         std::array::from_fn(|k| match self.axes.iter().position(|&axis| axis == k) {
             Some(a) => Interval::new(self.line(k, corner[a], depth), self.line(k, corner[a] + 1, depth)),
             None => Interval::point(self.window.ranges.get(k).map_or(0.0, |r| r.0)),
@@ -78,8 +77,8 @@ impl Cells {
     fn search(
         &self,
         at: usize,
-        (corner, depth): ([u32; MOST], u32),
-        meets: &impl Fn(&[u32; MOST], u32) -> bool,
+        (corner, depth): ([u32; AXES], u32),
+        meets: &impl Fn(&[u32; AXES], u32) -> bool,
         visit: &mut impl FnMut(usize),
     ) {
         if !meets(&corner, depth) {
@@ -107,28 +106,28 @@ impl Cells {
         let turn = 1i64 << DEEPEST;
         let Cell { corner, depth, .. } = self.leaves[leaf];
         for wrap in self.wraps() {
-            let mine: [(i64, i64); MOST] = std::array::from_fn(|a| {
+            let mine: [(i64, i64); AXES] = std::array::from_fn(|a| {
                 let (lo, hi) = extent(corner[a], depth);
                 (lo + wrap[a] * turn, hi + wrap[a] * turn)
             });
-            let meets = |corner: &[u32; MOST], depth: u32| {
+            let meets = |corner: &[u32; AXES], depth: u32| {
                 (0..self.axes.len()).all(|a| {
                     let (lo, hi) = extent(corner[a], depth);
                     lo <= mine[a].1 && mine[a].0 <= hi
                 })
             };
-            self.search(0, ([0; MOST], 0), &meets, visit);
+            self.search(0, ([0; AXES], 0), &meets, visit);
         }
     }
 
     /// Visits the leaves that may share a point with a box of coordinates, angles counting modulo full turns where they are glued.
     pub(super) fn meeting(&self, y: &Coordinates, visit: &mut impl FnMut(usize)) {
         for y in self.turns(y) {
-            let meets = |corner: &[u32; MOST], depth: u32| {
+            let meets = |corner: &[u32; AXES], depth: u32| {
                 let bounds = self.bounds(corner, depth);
                 (0..self.window.ranges.len()).all(|k| bounds[k].lo <= y[k].hi && y[k].lo <= bounds[k].hi)
             };
-            self.search(0, ([0; MOST], 0), &meets, visit);
+            self.search(0, ([0; AXES], 0), &meets, visit);
         }
     }
 
@@ -136,21 +135,21 @@ impl Cells {
     pub(super) fn holding(&self, y: &Coordinates) -> Vec<usize> {
         let mut found = Vec::new();
         for y in self.turns(y) {
-            let holds = |corner: &[u32; MOST], depth: u32| {
+            let holds = |corner: &[u32; AXES], depth: u32| {
                 let bounds = self.bounds(corner, depth);
                 (0..self.window.ranges.len()).all(|k| bounds[k].lo <= y[k].lo && y[k].hi <= bounds[k].hi)
             };
-            self.search(0, ([0; MOST], 0), &holds, &mut |leaf| found.push(leaf));
+            self.search(0, ([0; AXES], 0), &holds, &mut |leaf| found.push(leaf));
         }
         found
     }
 
     /// Shifts by whole turns, axis by axis: −1, 0 or 1 where it is glued.
-    fn wraps(&self) -> Vec<[i64; MOST]> {
-        let mut all = vec![[0; MOST]];
+    fn wraps(&self) -> Vec<[i64; AXES]> {
+        let mut all = vec![[0; AXES]];
         for (a, &k) in self.axes.iter().enumerate() {
             if self.window.glued[k] {
-                let shifted = |wrap: &[i64; MOST], by: i64| {
+                let shifted = |wrap: &[i64; AXES], by: i64| {
                     let mut wrap = *wrap;
                     wrap[a] = by;
                     wrap
@@ -164,7 +163,7 @@ impl Cells {
     /// A box, and where it is after a turn forwards and back of each glued angle.
     fn turns(&self, y: &Coordinates) -> Vec<Coordinates> {
         let turn = Interval::PI * Interval::point(2.0);
-        let shifted = |wrap: [i64; MOST]| {
+        let shifted = |wrap: [i64; AXES]| {
             let mut y = *y;
             for (a, &k) in self.axes.iter().enumerate().filter(|(a, _)| wrap[*a] != 0) {
                 y[k] = y[k] + turn * Interval::point(wrap[a] as f64);

@@ -3,7 +3,7 @@
 use super::body::Body;
 use super::cells::Cells;
 use super::claims::halves;
-use super::view::{Coordinates, Setting, View};
+use super::view::{Coordinates, Place, Setting};
 use crate::certificate::Certificate;
 use crate::kinematics::chart::{Chart, Fold};
 use crate::num::{Interval, Scalar};
@@ -64,7 +64,11 @@ pub(super) fn fault_of_fold(robot: &Robot, poses: &Window, fold: &Fold) -> Optio
 const EFFORT: usize = 100_000;
 
 /// Whether no configuration is in two charts; `setting` is that of the first.
-pub(super) fn are_disjoint(setting: &Setting<'_>, chart: &Chart, other_chart: &Chart) -> bool {
+pub(super) fn are_disjoint<const D: usize>(
+    setting: &Setting<'_>,
+    chart: &Chart,
+    other_chart: &Chart,
+) -> bool {
     let (Chart::Fold(fold), Chart::Fold(other)) = (chart, other_chart) else { return false };
     if fold.leg == other.leg {
         return match (fold.axial, other.axial) {
@@ -77,7 +81,7 @@ pub(super) fn are_disjoint(setting: &Setting<'_>, chart: &Chart, other_chart: &C
     let mut open: Vec<Coordinates> = vec![std::array::from_fn(range)];
     for _ in 0..EFFORT {
         let Some(y) = open.pop() else { return true };
-        if !View::new(setting, y).is_clear_of(other_chart) {
+        if !Place::<D>::new(setting, y).is_clear_of(other_chart) {
             let (low, high) = halves(setting, &y);
             open.extend([low, high]);
         }
@@ -86,14 +90,13 @@ pub(super) fn are_disjoint(setting: &Setting<'_>, chart: &Chart, other_chart: &C
 }
 
 /// The poses of a box of a chart.
-pub(super) fn poses(setting: &Setting<'_>, y: &Coordinates) -> Coordinates {
-    if let Chart::Chain(_) = setting.chart {
-        return Body::<Interval, 3>::new(setting.robot, setting.chart, y).roll_pitch_yaw();
-    }
+pub(super) fn poses<const D: usize>(setting: &Setting<'_>, y: &Coordinates) -> Coordinates {
     let mut pose = *y;
-    match setting.robot.platform.space() {
-        2 => pose[..2].copy_from_slice(Body::<Interval, 2>::new(setting.robot, setting.chart, y).origin()),
-        _ => pose.copy_from_slice(Body::<Interval, 3>::new(setting.robot, setting.chart, y).origin()),
+    if let Chart::Chain(_) = setting.chart {
+        let body = Body::<Interval, 3>::new(setting.robot, setting.chart, y);
+        pose[..3].copy_from_slice(&body.roll_pitch_yaw());
+    } else {
+        pose[..D].copy_from_slice(Body::<Interval, D>::new(setting.robot, setting.chart, y).origin());
     }
     pose
 }
@@ -103,19 +106,24 @@ const HALVINGS: u32 = 12;
 
 /// The leaves of sheet 0 that a leaf of another chart may meet on its outer faces: for a fold those of p, and of w in space. They
 /// are not covered and have a class in common with it.
-pub(super) fn met_outside(setting: &Setting<'_>, cells: &Cells, leaf: usize, sheet_0: &Cells) -> Vec<usize> {
+pub(super) fn met_outside<const D: usize>(
+    setting: &Setting<'_>,
+    cells: &Cells,
+    leaf: usize,
+    sheet_0: &Cells,
+) -> Vec<usize> {
     let claims = cells.leaves[leaf].claims;
     let y = cells.of(leaf);
     let mut found = Vec::new();
     if setting.chart.is_whole() {
         return found;
     }
-    for k in 1..setting.robot.platform.space() {
+    for k in 1..D {
         let [low, high] = cells.at_ends(leaf, k);
         for (_, end) in [(low, y[k].lo), (high, y[k].hi)].into_iter().filter(|(outer, _)| *outer) {
             let mut face = y;
             face[k] = Interval::point(end);
-            meet(setting, &face, claims.inside | claims.undecided, sheet_0, HALVINGS, &mut found);
+            meet::<D>(setting, &face, claims.inside | claims.undecided, sheet_0, HALVINGS, &mut found);
         }
     }
     found.sort_unstable();
@@ -123,7 +131,7 @@ pub(super) fn met_outside(setting: &Setting<'_>, cells: &Cells, leaf: usize, she
     found
 }
 
-fn meet(
+fn meet<const D: usize>(
     setting: &Setting<'_>,
     face: &Coordinates,
     classes: ClassSet,
@@ -131,7 +139,7 @@ fn meet(
     halvings: u32,
     found: &mut Vec<usize>,
 ) {
-    let pose = poses(setting, face);
+    let pose = poses::<D>(setting, face);
     let mut here = Vec::new();
     sheet_0.meeting(&pose, &mut |leaf| {
         let claims = sheet_0.leaves[leaf].claims;
@@ -148,6 +156,6 @@ fn meet(
         return;
     }
     let (low, high) = halves(setting, face);
-    meet(setting, &low, classes, sheet_0, halvings - 1, found);
-    meet(setting, &high, classes, sheet_0, halvings - 1, found);
+    meet::<D>(setting, &low, classes, sheet_0, halvings - 1, found);
+    meet::<D>(setting, &high, classes, sheet_0, halvings - 1, found);
 }

@@ -1,6 +1,6 @@
 //! What is claimed of a leaf, proved again by cutting it up.
 
-use super::view::{Coordinates, Existence, Heights, Setting, View};
+use super::view::{Coordinates, Existence, Place, Setting};
 use crate::certificate::Leaf;
 use crate::kinematics::WorkingMode;
 use crate::kinematics::chart::Chart;
@@ -44,7 +44,7 @@ pub(super) fn sign_of(class: usize) -> f64 {
 }
 
 /// Proves what is claimed of a leaf; returns how many boxes it was cut into.
-pub(super) fn prove(
+pub(super) fn prove<const D: usize>(
     setting: &Setting<'_>,
     modes: &[WorkingMode],
     charts: &[&Chart],
@@ -66,7 +66,7 @@ pub(super) fn prove(
             continue;
         }
         spent += 1;
-        let doubt = settle(setting, y, modes, charts, &mut needs)?;
+        let doubt = settle::<D>(setting, y, modes, charts, &mut needs)?;
         if needs.none() {
             continue;
         }
@@ -88,15 +88,15 @@ const NOT_OUTSIDE: &str = "claimed outside, but poses of the class may lie here"
 const SUMMIT: &str = "claimed summitless, but P may have a maximum here";
 
 /// Strikes from `needs` what is proved of a box, and says what is in doubt with the first of the rest.
-fn settle(
+fn settle<const D: usize>(
     setting: &Setting<'_>,
     y: Coordinates,
     modes: &[WorkingMode],
     charts: &[&Chart],
     needs: &mut Needs,
 ) -> Result<&'static str, Unproved> {
-    let view = View::new(setting, y);
-    if needs.covered && (view.cannot_close() || charts.iter().any(|chart| view.is_covered_by(chart))) {
+    let place = Place::<D>::new(setting, y);
+    if needs.covered && (place.cannot_close() || charts.iter().any(|chart| place.is_covered_by(chart))) {
         needs.covered = false;
     }
     let mut doubt = None;
@@ -105,8 +105,10 @@ fn settle(
         if (needs.inside | needs.outside | needs.summitless) & both == 0 {
             continue;
         }
-        let existence = view.existence(mode);
-        let det = if existence == Existence::Nowhere { Interval::ENTIRE } else { view.determinant(mode) };
+        let legs = place.in_mode(mode);
+        let existence = legs.as_ref().map_or(Existence::Nowhere, |legs| legs.existence());
+        let legs = legs.filter(|_| existence != Existence::Nowhere);
+        let det = legs.as_ref().map_or(Interval::ENTIRE, |legs| legs.determinant().range);
         for class in [2 * m, 2 * m + 1] {
             let bit: ClassSet = 1 << class;
             let signed = det * Interval::point(sign_of(class));
@@ -123,9 +125,8 @@ fn settle(
                 (_, true) => doubt = doubt.or(Some(NOT_OUTSIDE)),
                 _ => {}
             }
-            if needs.summitless & bit != 0
-                && (outside || is_summitless(setting, &view, y, mode, sign_of(class)))
-            {
+            let climbs = || legs.as_ref().is_none_or(|legs| legs.is_summitless(sign_of(class)));
+            if needs.summitless & bit != 0 && (outside || climbs()) {
                 needs.summitless &= !bit;
             } else if needs.summitless & bit != 0 {
                 doubt = doubt.or(Some(SUMMIT));
@@ -133,44 +134,6 @@ fn settle(
         }
     }
     Ok(doubt.unwrap_or(COVERED))
-}
-
-/// Most parts into which the h_j of loose legs are cut.
-const PARTS: usize = 48;
-
-/// Whether P has no maximum in a box. Near a serial singularity h_j varies like the root of the box's width, however small the box:
-/// other directions may lead uphill for other h_j, so their ranges are cut too.
-fn is_summitless(
-    setting: &Setting<'_>,
-    view: &View<'_>,
-    y: Coordinates,
-    mode: WorkingMode,
-    sign: f64,
-) -> bool {
-    if view.is_summitless(mode, sign) {
-        return true;
-    }
-    let Some(whole) = view.heights_of_loose(mode) else { return false };
-    let cut = |heights: &Heights| {
-        let share = |j: &usize| {
-            if whole[*j].hi.is_finite() { heights[*j].width() / whole[*j].width() } else { 0.0 }
-        };
-        let widest = (0..whole.len()).max_by(|a, b| share(a).total_cmp(&share(b))).unwrap_or(0);
-        let (mut low, mut high) = (*heights, *heights);
-        low[widest].hi = heights[widest].mid();
-        high[widest].lo = heights[widest].mid();
-        [low, high]
-    };
-    let mut open = cut(&whole).to_vec();
-    for _ in 0..PARTS {
-        let Some(heights) = open.pop() else { return true };
-        let part = View::of_part(setting, y, &heights);
-        let nowhere = part.existence(mode) == Existence::Nowhere;
-        if !nowhere && !part.is_summitless(mode, sign) {
-            open.extend(cut(&heights));
-        }
-    }
-    false
 }
 
 /// A box cut in two across the coordinate in which it is widest, in proportion to the window.

@@ -2,7 +2,7 @@
 
 use super::graph::Sets;
 use super::links::Link;
-use super::view::View;
+use super::view::Place;
 use super::{Checked, Fault, Sheet, Verdict, charts};
 use crate::certificate::{Certificate, Claim, Leaf};
 use crate::kinematics::chart::Chart;
@@ -25,7 +25,7 @@ struct Leaves<'a> {
     poles: [Vec<usize>; 2],
 }
 
-pub(super) fn check(
+pub(super) fn check<const D: usize>(
     certificate: &Certificate,
     sheets: &[Sheet<'_>],
     charts: &[&Chart],
@@ -34,11 +34,11 @@ pub(super) fn check(
     verdict: &mut Verdict,
 ) {
     (control.progress)(Progress { stage: "adjacency", done: 0, total: 1 });
-    let leaves = Leaves::new(certificate, sheets);
+    let leaves = Leaves::new::<D>(certificate, sheets);
     let classes = 2 * certificate.modes.len();
     let count = |class: usize| {
         (control.progress)(Progress { stage: "counting", done: class as u64, total: classes as u64 });
-        Claim { low: leaves.low(class, charts), high: leaves.high(class, links) }
+        Claim { low: leaves.low::<D>(class, charts), high: leaves.high(class, links) }
     };
     let counted: Vec<Claim> = (0..classes).into_par_iter().map(count).collect();
     for (class, (&proved, &claimed)) in counted.iter().zip(&certificate.claims).enumerate() {
@@ -65,7 +65,7 @@ pub(super) fn check(
 }
 
 impl<'a> Leaves<'a> {
-    fn new(certificate: &Certificate, sheets: &'a [Sheet<'a>]) -> Self {
+    fn new<const D: usize>(certificate: &Certificate, sheets: &'a [Sheet<'a>]) -> Self {
         let mut first = Vec::new();
         let mut all: Vec<Leaf> = Vec::new();
         for sheet in sheets {
@@ -80,7 +80,7 @@ impl<'a> Leaves<'a> {
             if s == 0 {
                 vec![]
             } else {
-                charts::met_outside(&sheet.setting, &sheet.cells, leaf, &sheets[0].cells)
+                charts::met_outside::<D>(&sheet.setting, &sheet.cells, leaf, &sheets[0].cells)
             }
         });
         let varies = |k: usize| certificate.window.ranges[k].0 < certificate.window.ranges[k].1;
@@ -125,7 +125,7 @@ impl<'a> Leaves<'a> {
     }
 
     /// Components of G⁺ that certainly hold an aspect.
-    fn low(&self, class: usize, charts: &[&Chart]) -> usize {
+    fn low<const D: usize>(&self, class: usize, charts: &[&Chart]) -> usize {
         let bit: ClassSet = 1 << class;
         let is_member = |i: usize| {
             let leaf = &self.all[i];
@@ -144,7 +144,7 @@ impl<'a> Leaves<'a> {
         let holds_some = |i: &usize| {
             self.all[*i].inside & bit != 0
                 && is_member(*i)
-                && (self.is_of_chart(*i) || self.is_clear(*i, charts))
+                && (self.is_of_chart(*i) || self.is_clear::<D>(*i, charts))
         };
         sets.count((0..self.all.len()).filter(holds_some))
     }
@@ -154,11 +154,11 @@ impl<'a> Leaves<'a> {
     }
 
     /// Whether the middle of a leaf of sheet 0 is in no other chart.
-    fn is_clear(&self, leaf: usize, charts: &[&Chart]) -> bool {
+    fn is_clear<const D: usize>(&self, leaf: usize, charts: &[&Chart]) -> bool {
         let middle = self.sheets[0].cells.of(leaf).map(|x| Interval::point(x.mid()));
         charts.is_empty() || {
-            let view = View::new(&self.sheets[0].setting, middle);
-            charts.iter().all(|chart| view.is_clear_of(chart))
+            let place = Place::<D>::new(&self.sheets[0].setting, middle);
+            charts.iter().all(|chart| place.is_clear_of(chart))
         }
     }
 

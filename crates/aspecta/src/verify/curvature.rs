@@ -5,9 +5,11 @@
 //! local maximum. This settles boxes at double points of det A = 0, where no direction leads uphill.
 
 use super::body::{Body, MOST};
-use super::view::{Coordinates, Setting, determinant};
+use super::determinant::Turned;
+use super::view::{AXES, Coordinates, Setting};
 use crate::num::{Interval, Jet, Scalar};
-use nalgebra::DMatrix;
+use arrayvec::ArrayVec;
+use nalgebra::{DMatrix, DVector};
 
 /// A function of the parameter t of a line, with two derivatives.
 type Twice<S> = Jet<Jet<S, 1>, 1>;
@@ -23,6 +25,7 @@ fn second<S: Scalar, const D: usize>(
     y: &[S; MOST],
     v: &[f64; MOST],
     q: &[S; MOST],
+    turned: &Turned,
 ) -> S {
     let zero = S::zero();
     let line = |k: usize| twice(y[k], S::constant(Interval::point(v[k])), zero);
@@ -44,7 +47,7 @@ fn second<S: Scalar, const D: usize>(
         let bend = -(moving.equation.gradient[0].gradient[0] / slope);
         rows[j] = body.leg(j, &span, twice(q[j], rate, bend)).row;
     }
-    determinant(n, &rows).gradient[0].gradient[0]
+    turned.determinant(&rows[..n]).gradient[0].gradient[0]
 }
 
 /// Whether σ det A has no local maximum in the box; σ = `sign`, `q` as in [`second`] over the box and at its middle.
@@ -52,25 +55,34 @@ pub(super) fn has_no_maximum<const D: usize>(
     setting: &Setting<'_>,
     y: &Coordinates,
     q: (&[Interval; MOST], &[f64; MOST]),
+    turned: &Turned,
     sign: f64,
 ) -> bool {
-    let axes = setting.window.axes();
+    let axes = &setting.axes;
     let middle = y.map(Interval::mid);
-    let along = |directions: &[(usize, f64)]| {
+    let along = |some: &[usize]| {
         let mut v = [0.0; MOST];
-        directions.iter().for_each(|&(a, x)| v[axes[a]] += x);
-        second::<f64, D>(setting, &middle, &v, q.1)
+        some.iter().for_each(|&a| v[axes[a]] += 1.0);
+        second::<f64, D>(setting, &middle, &v, q.1, turned)
     };
     // How the line is found does not matter: the greatest eigenvector of the Hessian at the middle.
-    let hessian = DMatrix::from_fn(axes.len(), axes.len(), |a, b| {
-        sign * 0.25 * (along(&[(a, 1.0), (b, 1.0)]) - along(&[(a, 1.0), (b, -1.0)]))
-    });
+    let straight: ArrayVec<f64, AXES> = (0..axes.len()).map(|a| along(&[a])).collect();
+    let mut hessian = DMatrix::from_diagonal(&DVector::from_column_slice(&straight));
+    for (a, b) in (0..axes.len()).flat_map(|b| (0..b).map(move |a| (a, b))) {
+        hessian[(a, b)] = 0.5 * (along(&[a, b]) - straight[a] - straight[b]);
+        hessian[(b, a)] = hessian[(a, b)];
+    }
+    hessian *= sign;
     if hessian.iter().any(|x| !x.is_finite()) {
         return false;
     }
     let eigen = hessian.symmetric_eigen();
-    let vector = eigen.eigenvectors.column(eigen.eigenvalues.imax());
+    let steepest = eigen.eigenvalues.imax();
+    if eigen.eigenvalues[steepest] <= 0.0 {
+        return false;
+    }
+    let vector = eigen.eigenvectors.column(steepest);
     let mut v = [0.0; MOST];
     axes.iter().enumerate().for_each(|(a, &k)| v[k] = vector[a]);
-    (second::<Interval, D>(setting, y, &v, q.0) * Interval::point(sign)).is_positive()
+    (second::<Interval, D>(setting, y, &v, q.0, turned) * Interval::point(sign)).is_positive()
 }

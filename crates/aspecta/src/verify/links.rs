@@ -1,7 +1,7 @@
 //! Joins and seams: what links inside leaves that do not touch.
 
 use super::claims::sign_of;
-use super::view::{Coordinates, Existence, Setting, View};
+use super::view::{Coordinates, Existence, Place, Setting};
 use super::{Fault, Sheet, Verdict, charts, point};
 use crate::certificate::{Certificate, Join, Seam};
 use crate::kinematics::WorkingMode;
@@ -13,11 +13,16 @@ pub(super) struct Link {
     pub leaves: Vec<(usize, usize)>,
 }
 
-pub(super) fn check(certificate: &Certificate, sheets: &[Sheet<'_>], verdict: &mut Verdict) -> Vec<Link> {
+pub(super) fn check<const D: usize>(
+    certificate: &Certificate,
+    sheets: &[Sheet<'_>],
+    verdict: &mut Verdict,
+) -> Vec<Link> {
     let mut links = Vec::new();
-    let joins =
-        certificate.joins.iter().map(|join| (join.class, "join", link_of_join(certificate, sheets, join)));
-    let seams = certificate.seams.iter().map(|seam| (seam.class, "seam", link_of_seam(sheets, seam)));
+    let joins = certificate.joins.iter();
+    let joins = joins.map(|join| (join.class, "join", link_of_join::<D>(certificate, sheets, join)));
+    let seams = certificate.seams.iter();
+    let seams = seams.map(|seam| (seam.class, "seam", link_of_seam::<D>(sheets, seam)));
     let mut number = [0, 0];
     for (class, kind, link) in joins.chain(seams) {
         let index = &mut number[usize::from(kind == "seam")];
@@ -48,7 +53,7 @@ fn inside(sheets: &[Sheet<'_>], sheet: usize, y: &Coordinates, class: usize) -> 
     found.into_iter().map(|leaf| (sheet, leaf)).collect()
 }
 
-fn link_of_join(
+fn link_of_join<const D: usize>(
     certificate: &Certificate,
     sheets: &[Sheet<'_>],
     join: &Join,
@@ -73,7 +78,7 @@ fn link_of_join(
     }
     let mode = certificate.modes[join.class / 2];
     for (k, ends) in join.path.windows(2).enumerate() {
-        if !is_inside_all_along(setting, mode, sign_of(join.class), &ends[0], &ends[1]) {
+        if !is_inside_all_along::<D>(setting, mode, sign_of(join.class), &ends[0], &ends[1]) {
             return Err(format!("the segment from pose {k} is not proved to lie inside the class"));
         }
     }
@@ -83,7 +88,7 @@ fn link_of_join(
 /// Most pieces into which a segment is cut.
 const EFFORT: usize = 50_000;
 
-fn is_inside_all_along(
+fn is_inside_all_along<const D: usize>(
     setting: &Setting<'_>,
     mode: WorkingMode,
     sign: f64,
@@ -98,11 +103,14 @@ fn is_inside_all_along(
             let reached = start[k] + Interval::new(from, to) * (end[k] - start[k]);
             if start[k] == end[k] { start[k] } else { reached }
         });
-        let view = View::new(setting, y);
-        let existence = view.existence(mode);
-        let det = if existence == Existence::Nowhere { Interval::ENTIRE } else { view.determinant(mode) };
-        let det = det * Interval::point(sign);
-        if existence == Existence::Nowhere || det.is_negative() {
+        let place = Place::<D>::new(setting, y);
+        let Some(legs) = place.in_mode(mode) else { return false };
+        let existence = legs.existence();
+        if existence == Existence::Nowhere {
+            return false;
+        }
+        let det = legs.determinant().range * Interval::point(sign);
+        if det.is_negative() {
             return false;
         }
         if !(existence == Existence::Everywhere && det.is_positive()) {
@@ -113,13 +121,13 @@ fn is_inside_all_along(
     false
 }
 
-fn link_of_seam(sheets: &[Sheet<'_>], seam: &Seam) -> Result<Vec<(usize, usize)>, String> {
+fn link_of_seam<const D: usize>(sheets: &[Sheet<'_>], seam: &Seam) -> Result<Vec<(usize, usize)>, String> {
     let y = point(&seam.point);
     let mut leaves = inside(sheets, seam.sheet, &y, seam.class);
     if leaves.is_empty() {
         return Err(format!("the point lies in no inside leaf of sheet {}", seam.sheet));
     }
-    let pose = charts::poses(&sheets[seam.sheet].setting, &y);
+    let pose = charts::poses::<D>(&sheets[seam.sheet].setting, &y);
     let outside = inside(sheets, 0, &pose, seam.class);
     if outside.is_empty() {
         return Err("the pose is not proved to lie in an inside leaf of sheet 0".into());

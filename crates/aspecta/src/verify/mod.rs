@@ -27,6 +27,10 @@
 //! this gives q̇_j. Where B_jj may vanish, ẏ is chosen exactly perpendicular to n_j and q̇_j = 0, or ẏ = −B_jj c and q̇_j = n_j·c: det A, B_jj
 //! and the limits are smooth functions of (y, q), so nothing grows without bound. h_j = |B_jj| (|B_jj|/2 for prismatic legs) grows where
 //! s_j B_jj does. Near B_jj = 0 h_j = √H_j varies like the root of the box's width, so its range is cut too, with vectors for each part.
+//! ẏ has the coordinates that vary only: in a slice the others are held, and the tangent vectors are those of the slice.
+//!
+//! det A is expanded by minors, its gradient by cofactors, both in mean value form. Of six rows PAR is expanded, P and R being fixed matrices that make it nearly
+//! diagonal: det A = det PAR / (det P det R) for any P and R that are regular (`verify::determinant`).
 //!
 //! # What is taken for granted
 //! The arithmetic of the machine and of [`Interval`]; that the leg equation is that of the robot; that a window from
@@ -38,6 +42,7 @@ mod charts;
 mod claims;
 mod count;
 mod curvature;
+mod determinant;
 mod direction;
 mod graph;
 mod links;
@@ -66,17 +71,25 @@ const ENOUGH: usize = 10;
 /// Faults are all real for the theorem above: a claim is wrong, or could not be proved with generous effort. If the work is
 /// cancelled, the verdict is incomplete.
 pub fn verify(certificate: &Certificate, control: &Control<'_>) -> Verdict {
+    match certificate.robot.platform.space() {
+        2 => verify_in::<2>(certificate, control),
+        _ => verify_in::<3>(certificate, control),
+    }
+}
+
+/// [`verify`] in D dimensions.
+fn verify_in<const D: usize>(certificate: &Certificate, control: &Control<'_>) -> Verdict {
     let mut verdict = Verdict::new(certificate);
     let sheets = sheets(certificate);
     let charts = charts::of(certificate);
-    check_charts(certificate, &sheets, &charts, &mut verdict);
+    check_charts::<D>(certificate, &sheets, &charts, &mut verdict);
     if verdict.faults.is_empty() {
-        check_leaves(certificate, &sheets, &charts, control, &mut verdict);
+        check_leaves::<D>(certificate, &sheets, &charts, control, &mut verdict);
     }
     if verdict.faults.is_empty() && !control.is_cancelled() {
-        let links = links::check(certificate, &sheets, &mut verdict);
+        let links = links::check::<D>(certificate, &sheets, &mut verdict);
         if verdict.faults.is_empty() {
-            count::check(certificate, &sheets, &charts, &links, control, &mut verdict);
+            count::check::<D>(certificate, &sheets, &charts, &links, control, &mut verdict);
         }
     }
     verdict.complete = !control.is_cancelled();
@@ -96,13 +109,18 @@ fn sheets(certificate: &Certificate) -> Vec<Sheet<'_>> {
     };
     let all = certificate.sheets.iter().map(|s| (s, sheet(s)));
     all.map(|(s, (window, cells))| Sheet {
-        setting: Setting { robot: &certificate.robot, chart: &s.chart, window, scale: &certificate.scale },
+        setting: Setting::new(&certificate.robot, &s.chart, window, &certificate.scale),
         cells,
     })
     .collect()
 }
 
-fn check_charts(certificate: &Certificate, sheets: &[Sheet<'_>], charts: &[&Chart], verdict: &mut Verdict) {
+fn check_charts<const D: usize>(
+    certificate: &Certificate,
+    sheets: &[Sheet<'_>],
+    charts: &[&Chart],
+    verdict: &mut Verdict,
+) {
     if let Some(reason) = charts::fault_of_window(certificate) {
         verdict.faults.push(Fault::of_sheet(0, reason));
     }
@@ -118,7 +136,7 @@ fn check_charts(certificate: &Certificate, sheets: &[Sheet<'_>], charts: &[&Char
     }
     for (k, chart) in charts.iter().enumerate() {
         for (l, other) in charts.iter().enumerate().skip(k + 1) {
-            if !charts::are_disjoint(&sheets[k + 1].setting, chart, other) {
+            if !charts::are_disjoint::<D>(&sheets[k + 1].setting, chart, other) {
                 let reason = format!("its chart is not proved to be disjoint from that of sheet {}", l + 1);
                 verdict.faults.push(Fault::of_sheet(k + 1, reason));
             }
@@ -126,7 +144,7 @@ fn check_charts(certificate: &Certificate, sheets: &[Sheet<'_>], charts: &[&Char
     }
 }
 
-fn check_leaves(
+fn check_leaves<const D: usize>(
     certificate: &Certificate,
     sheets: &[Sheet<'_>],
     charts: &[&Chart],
@@ -145,7 +163,7 @@ fn check_leaves(
                 (control.progress)(Progress { stage: "proving boxes", done: so_far, total });
             }
             let (claims, y) = (sheet.cells.leaves[leaf].claims, sheet.cells.of(leaf));
-            match claims::prove(&sheet.setting, &certificate.modes, charts, y, claims) {
+            match claims::prove::<D>(&sheet.setting, &certificate.modes, charts, y, claims) {
                 Ok(spent) => {
                     boxes.fetch_add(spent as u64, Ordering::Relaxed);
                     None
@@ -173,7 +191,7 @@ fn bounds(y: &Coordinates, count: usize) -> Vec<(f64, f64)> {
     y[..count].iter().map(|x| (x.lo, x.hi)).collect()
 }
 
-/// A point, given by up to three numbers, as a box.
+/// A point, given by up to six numbers, as a box.
 fn point(x: &[f64]) -> Coordinates {
     std::array::from_fn(|k| Interval::point(x.get(k).copied().unwrap_or(0.0)))
 }

@@ -3,87 +3,103 @@
 use super::body::MOST;
 use super::curvature::has_no_maximum;
 use super::direction::climbable;
-use super::view::{Coordinates, ONE, Posture, View, ZERO};
-use crate::kinematics::WorkingMode;
+use super::view::{ANY, AXES, Existence, Heights, InMode, ONE, OWN, Posture, ZERO};
 use crate::num::{Interval, Scalar};
 
-/// A velocity: of the coordinates, then of each leg's q.
-type Velocity = [Interval; 6];
+/// A vector along the axes.
+type Direction = [Interval; AXES];
+
+/// A velocity, or the derivatives of a function: along the axes, then by each leg's q.
+type Vector = [Interval; AXES + MOST];
 
 /// One of the functions whose least is P.
 struct Constraint {
     value: Interval,
-    gradient: [Interval; 6],
+    gradient: Vector,
 }
 
-impl View<'_> {
-    /// Whether P certainly has no maximum in the box, in the class of a mode and the sign of det A (module documentation).
-    pub(super) fn is_summitless(&self, mode: WorkingMode, sign: f64) -> bool {
-        let Some(legs) = self.legs(mode) else { return true };
-        let constraints = self.constraints(mode, sign, &legs);
+/// Most parts into which the h_j of loose legs are cut.
+const PARTS: usize = 48;
+
+impl<const D: usize> InMode<'_, '_, D> {
+    /// Whether P certainly has no maximum in the box, in the class of the mode and the sign of det A (module documentation).
+    ///
+    /// Near a serial singularity h_j varies like the root of the box's width, however small the box: other directions may lead uphill for
+    /// other h_j, so their ranges are cut too.
+    pub(super) fn is_summitless(&self, sign: f64) -> bool {
+        if self.climbs(sign) {
+            return true;
+        }
+        let Some(whole) = self.heights_of_loose() else { return false };
+        let mut open = halves(&whole, &whole).to_vec();
+        for _ in 0..PARTS {
+            let Some(heights) = open.pop() else { return true };
+            if self
+                .part(&heights)
+                .is_some_and(|part| part.existence() != Existence::Nowhere && !part.climbs(sign))
+            {
+                open.extend(halves(&heights, &whole));
+            }
+        }
+        false
+    }
+
+    /// [`Self::is_summitless`], the h_j being what they are here.
+    fn climbs(&self, sign: f64) -> bool {
+        let constraints = self.constraints(sign);
         let least = constraints.iter().fold(f64::INFINITY, |least, c| least.min(c.value.hi));
         if least <= 0.0 {
             return true;
         }
         let active: Vec<&Constraint> = constraints.iter().filter(|c| c.value.lo <= least).collect();
-        let det_alone = active.len() == 1 && constraints[0].value.lo <= least;
-        if det_alone && legs.iter().flatten().all(|leg| !leg.loose) && self.det_has_no_maximum(sign, &legs) {
-            return true;
-        }
-        self.choices_of_loose(&legs).into_iter().any(|loose| {
-            self.velocities(&legs, &loose).is_some_and(|velocities| {
-                let growth = |c: &&Constraint| -> Vec<Interval> {
-                    velocities
-                        .iter()
-                        .map(|v| (0..6).fold(ZERO, |sum, k| sum + c.gradient[k] * v[k]))
-                        .collect()
-                };
+        let climbs = |loose: Vec<usize>| {
+            self.velocities(&loose).is_some_and(|velocities| {
+                let growth = |c: &&Constraint| velocities.iter().map(|v| dot(&c.gradient, v)).collect();
                 climbable(&active.iter().map(growth).collect::<Vec<_>>())
             })
-        })
+        };
+        let det_alone = active.len() == 1 && constraints[0].value.lo <= least;
+        self.choices_of_loose().into_iter().any(climbs)
+            || det_alone && self.legs.iter().all(|leg| !leg.loose) && self.det_has_no_maximum(sign)
     }
 
-    fn det_has_no_maximum(&self, sign: f64, legs: &[Option<&Posture>; MOST]) -> bool {
-        let over = legs.map(|leg| leg.map_or(ZERO, |leg| leg.q));
-        let at_middle = legs.map(|leg| leg.map_or(0.0, |leg| leg.middle.mid()));
-        match self.setting.robot.platform.space() {
-            2 => has_no_maximum::<2>(self.setting, &self.y, (&over, &at_middle), sign),
-            _ => has_no_maximum::<3>(self.setting, &self.y, (&over, &at_middle), sign),
-        }
+    fn det_has_no_maximum(&self, sign: f64) -> bool {
+        let over = std::array::from_fn(|j| self.legs.get(j).map_or(ZERO, |leg| leg.q));
+        let at_middle = std::array::from_fn(|j| self.legs.get(j).map_or(0.0, |leg| leg.middle.mid()));
+        let turned = &self.determinant().turned;
+        has_no_maximum::<D>(self.place.setting, &self.place.y, (&over, &at_middle), turned, sign)
     }
 
     /// The functions whose least is P, scaled, and gradients of increasing functions of them.
-    fn constraints(&self, mode: WorkingMode, sign: f64, legs: &[Option<&Posture>; MOST]) -> Vec<Constraint> {
-        let scale = self.setting.scale;
+    fn constraints(&self, sign: f64) -> Vec<Constraint> {
+        let setting = self.place.setting;
+        let scale = setting.scale;
         let exact = Interval::point;
-        let (det, range) = self.determinant_of(legs);
-        let mut all = vec![Constraint {
-            value: range * exact(sign) / exact(scale.det),
-            gradient: det.gradient.map(|g| g * exact(sign)),
-        }];
-        for (j, leg) in legs.iter().enumerate().filter_map(|(j, leg)| Some((j, (*leg)?))) {
-            if self.setting.robot.legs[j].actuator.postures() == 2 {
+        let det = self.determinant();
+        let mut gradient = joined(&det.along, &det.by_joint);
+        gradient.iter_mut().for_each(|g| *g = *g * exact(sign));
+        let mut all = vec![Constraint { value: det.range * exact(sign) / exact(scale.det), gradient }];
+        for (j, posture) in self.legs.iter().enumerate() {
+            if setting.robot.legs[j].actuator.postures() == 2 {
                 // √H = |B| (|B|/2) grows as s B does where that is positive.
-                let s = exact(f64::from(mode.sign(j)));
-                let gradient = leg.over.slope.gradient.map(|g| g * s);
-                let value = (self.reach[j] / exact(scale.reach[j])).sqrt();
+                let s = exact(f64::from(self.mode.sign(j)));
+                let gradient = of_leg(j, &posture.over.slope.gradient.map(|g| g * s));
+                let value = (posture.reach / exact(scale.reach[j])).sqrt();
                 all.push(Constraint { value, gradient });
             }
-            for (k, limit) in leg.over.limits.iter().enumerate() {
-                let value = leg.limits[k] / exact(scale.limits[j][k]);
-                all.push(Constraint { value, gradient: limit.gradient });
+            for (k, limit) in posture.over.limits.iter().enumerate() {
+                let value = posture.limits[k] / exact(scale.limits[j][k]);
+                all.push(Constraint { value, gradient: of_leg(j, &limit.gradient) });
             }
         }
-        for k in 0..self.setting.robot.dof() {
-            let (lo, hi) = self.setting.window.ranges[k];
-            let cut = self.setting.window.cut[k];
+        for (a, &k) in setting.axes.iter().enumerate() {
+            let (lo, hi) = setting.window.ranges[k];
+            let (y, cut) = (self.place.y[k], setting.window.cut[k]);
             let width = exact(hi) - exact(lo);
-            for (cut, distance, sign) in
-                [(cut.0, self.y[k] - exact(lo), 1.0), (cut.1, exact(hi) - self.y[k], -1.0)]
-            {
-                if cut && lo < hi {
-                    let mut gradient = [ZERO; 6];
-                    gradient[k] = exact(sign);
+            for (cut, distance, sign) in [(cut.0, y - exact(lo), 1.0), (cut.1, exact(hi) - y, -1.0)] {
+                if cut {
+                    let mut gradient = [ZERO; AXES + MOST];
+                    gradient[a] = exact(sign);
                     all.push(Constraint { value: distance / width, gradient });
                 }
             }
@@ -93,58 +109,69 @@ impl View<'_> {
 
     /// Sets of legs for which velocities are chosen with care: those whose B_jj may vanish must be among them; it helps if those are
     /// whose H_j is small, because the gradients of det A and H_j are nearly parallel there.
-    fn choices_of_loose(&self, legs: &[Option<&Posture>; MOST]) -> Vec<Vec<usize>> {
-        let rooted = |j: usize| {
-            legs[j].is_some()
-                && !self.setting.is_own(j)
-                && self.setting.robot.legs[j].actuator.postures() == 2
-        };
-        let must = |j: usize| legs[j].is_some_and(|leg| leg.loose);
+    fn choices_of_loose(&self) -> Vec<Vec<usize>> {
+        let setting = self.place.setting;
+        let rooted = |j: usize| !setting.is_own(j) && setting.robot.legs[j].actuator.postures() == 2;
         let among = |most: f64| -> Vec<usize> {
-            let is_small = |j: usize| rooted(j) && self.reach[j].hi <= most * self.setting.scale.reach[j];
-            (0..MOST).filter(|&j| must(j) || is_small(j)).collect()
+            let is_small = |j: usize| rooted(j) && self.legs[j].reach.hi <= most * setting.scale.reach[j];
+            (0..self.legs.len()).filter(|&j| self.legs[j].loose || is_small(j)).collect()
         };
         let mut choices: Vec<Vec<usize>> = [0.0, 0.1, 0.3, 1.0].map(among).to_vec();
         choices.dedup();
         choices
     }
 
-    /// As many tangent vectors of the configurations as there are coordinates that vary. With n_j = ∂f_j/∂y they fulfil
-    /// n_j·ẏ + B_jj q̇_j = 0 exactly at every point of the box. For the loose legs, either n_j·ẏ = 0 and q̇_j = 0, by an exact cross
-    /// product, or ẏ = −B_jj c and q̇_j = n_j·c.
-    fn velocities(&self, legs: &[Option<&Posture>; MOST], loose: &[usize]) -> Option<Vec<Velocity>> {
-        let axes = self.setting.window.axes();
-        let normal = |j: usize| -> Coordinates {
-            let gradient = legs[j].map_or([ZERO; 6], |leg| leg.over.equation.gradient);
-            std::array::from_fn(|a| axes.get(a).map_or(ZERO, |&k| gradient[k]))
-        };
-        let normals: Vec<Coordinates> = loose.iter().map(|&j| normal(j)).collect();
-        let mut all = Vec::new();
-        for (direction, own) in directions(axes.len(), &normals)? {
-            let mut velocity = [ZERO; 6];
+    /// As many tangent vectors of the configurations as there are axes. With n_j = ∂f_j/∂y they fulfil n_j·ẏ + B_jj q̇_j = 0 exactly at
+    /// every point of the box. For the loose legs, either n_j·ẏ = 0 and q̇_j = 0, by an exact cross product, or ẏ = −B_jj c and
+    /// q̇_j = n_j·c.
+    fn velocities(&self, loose: &[usize]) -> Option<Vec<Vector>> {
+        let normal = |j: &usize| std::array::from_fn(|a| self.legs[*j].over.equation.gradient[a]);
+        let normals: Vec<Direction> = loose.iter().map(normal).collect();
+        let velocity = |(direction, own): (Direction, Option<usize>)| {
             let own = own.map(|i| (loose[i], normals[i]));
-            let factor = own.and_then(|(j, _)| legs[j]).map_or(ONE, |leg| -leg.over.slope.value);
-            for (a, &k) in axes.iter().enumerate() {
-                velocity[k] = direction[a] * factor;
-            }
-            for (j, leg) in legs.iter().enumerate().filter_map(|(j, leg)| Some((j, (*leg)?))) {
-                velocity[MOST + j] = match own {
-                    Some((i, normal)) if i == j => dot(&normal, &direction),
-                    _ if loose.contains(&j) => ZERO,
-                    _ => (0..MOST).fold(ZERO, |sum, k| sum + leg.rate[k] * velocity[k]),
-                };
-            }
-            all.push(velocity);
-        }
-        Some(all)
+            let factor = own.map_or(ONE, |(j, _)| -self.legs[j].over.slope.value);
+            let along = direction.map(|x| x * factor);
+            let joint = |(j, leg): (usize, &Posture)| match own {
+                Some((i, normal)) if i == j => dot(&normal, &direction),
+                _ if loose.contains(&j) => ZERO,
+                _ => dot(&leg.rate, &along),
+            };
+            let mut joints = [ZERO; MOST];
+            let legs = self.legs.iter().map(|leg| &**leg);
+            joints.iter_mut().zip(legs.enumerate().map(joint)).for_each(|(place, q)| *place = q);
+            joined(&along, &joints)
+        };
+        Some(directions(self.place.setting.axes.len(), &normals)?.into_iter().map(velocity).collect())
     }
 }
 
-fn dot(a: &Coordinates, b: &Coordinates) -> Interval {
-    (0..MOST).fold(ZERO, |sum, k| sum + a[k] * b[k])
+/// Ranges of h_j, of which one is cut in two: the widest in proportion to the whole.
+fn halves(heights: &Heights, whole: &Heights) -> [Heights; 2] {
+    let share = |j: &usize| if whole[*j] == ANY { 0.0 } else { heights[*j].width() / whole[*j].width() };
+    let widest = (0..whole.len()).max_by(|a, b| share(a).total_cmp(&share(b))).unwrap_or(0);
+    let (mut low, mut high) = (*heights, *heights);
+    low[widest].hi = heights[widest].mid();
+    high[widest].lo = heights[widest].mid();
+    [low, high]
 }
 
-fn cross(a: &Coordinates, b: &Coordinates) -> Coordinates {
+fn joined(along: &Direction, by_joint: &[Interval; MOST]) -> Vector {
+    std::array::from_fn(|k| if k < AXES { along[k] } else { by_joint[k - AXES] })
+}
+
+/// The derivatives of a function of leg j alone.
+fn of_leg(j: usize, gradient: &[Interval; AXES + 1]) -> Vector {
+    let mut all = [ZERO; AXES + MOST];
+    all[..AXES].copy_from_slice(&gradient[..AXES]);
+    all[AXES + j] = gradient[OWN];
+    all
+}
+
+fn dot<const M: usize>(a: &[Interval; M], b: &[Interval; M]) -> Interval {
+    a.iter().zip(b).fold(ZERO, |sum, (a, b)| sum + *a * *b)
+}
+
+fn cross(a: &Direction, b: &Direction) -> Direction {
     std::array::from_fn(|i| {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
         a[j] * b[k] - a[k] * b[j]
@@ -152,7 +179,7 @@ fn cross(a: &Coordinates, b: &Coordinates) -> Coordinates {
 }
 
 /// The middle of a vector, at length one.
-fn unit(v: &Coordinates) -> Coordinates {
+fn unit(v: &Direction) -> Direction {
     let middle = v.map(Interval::mid);
     let length = middle.iter().map(|x| x * x).sum::<f64>().sqrt();
     middle.map(|x| Interval::point(if length.is_normal() { x / length } else { x }))
@@ -160,10 +187,10 @@ fn unit(v: &Coordinates) -> Coordinates {
 
 /// `count` directions: first those perpendicular to all the normals, then for each normal (its index given) one that is
 /// perpendicular to all the others. `None` if there are more normals than directions.
-fn directions(count: usize, normals: &[Coordinates]) -> Option<Vec<(Coordinates, Option<usize>)>> {
+fn directions(count: usize, normals: &[Direction]) -> Option<Vec<(Direction, Option<usize>)>> {
     let axis = |a: usize| std::array::from_fn(|k| if k == a { ONE } else { ZERO });
     // Perpendicular to a vector of the first two axes, in their plane.
-    let quarter = |v: &Coordinates| [-v[1], v[0], ZERO];
+    let quarter = |v: &Direction| [-v[1], v[0], ZERO];
     Some(match (count, normals) {
         (_, []) => (0..count).map(|a| (axis(a), None)).collect(),
         (1, [_]) => vec![(axis(0), Some(0))],

@@ -301,6 +301,39 @@ fn robots_of_the_catalogue() {
     }
 }
 
+/// A slice of a free body, in its working modes `modes`, verified, with faults planted in it.
+fn check_slice(name: &str, fix: Vec<(usize, f64)>, modes: &[&str]) -> Vec<Claim> {
+    let modes = modes.iter().map(|mode| mode.parse().unwrap()).collect();
+    let options = Options { fix, modes, certificate: true, ..Options::default() };
+    let control = Control { cancelled: &AtomicBool::new(false), progress: &|_| {} };
+    let certificate =
+        analyze(&catalogue::find(name).unwrap(), &options, &control).unwrap().certificate.unwrap();
+    assert!(checked(&certificate).is_verified());
+    refuted(&certificate, "claimed", |c| leaf(c, 0, |leaf| leaf.inside & 3 == 2).inside ^= 3);
+    refuted(&certificate, "the window is not the one", |c| c.window.cut[0].0 ^= true);
+    certificate.claims
+}
+
+/// Six rows in A: struts and two coordinates that vary, cranks and one.
+#[test]
+fn slices_of_free_bodies_are_checked() {
+    let exact = |n: usize| Claim { low: n, high: Some(n) };
+    let struts = check_slice("gough-stewart", vec![(2, 0.8), (3, 0.1), (4, 0.0), (5, 0.0)], &["------"]);
+    assert_eq!(struts, [1, 1].map(exact));
+    let held = vec![(1, 20.0), (2, -600.0), (3, 0.0), (4, 0.1), (5, 0.0)];
+    let cranks = check_slice("hexa", held, &["-+-+-+", "+-++++"]);
+    assert_eq!(cranks, [1, 2, 1, 1].map(exact));
+}
+
+#[test]
+fn more_than_three_coordinates_are_not_boxes() {
+    let mut wide = COARSE.clone();
+    wide.robot = catalogue::find("gough-stewart").unwrap();
+    wide.window = wide.robot.slice(&[]).unwrap();
+    let error = Certificate::from_json(wide.to_json().unwrap().as_bytes()).unwrap_err();
+    assert!(error.to_string().contains("more than three coordinates of the window vary"), "{error}");
+}
+
 /// A pair of narrow enclosures of the cosine and the sine.
 fn direction(angle: f64) -> (Interval, Interval) {
     let (sin, cos) = Interval::point(angle).sin_cos();

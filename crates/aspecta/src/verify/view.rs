@@ -1,15 +1,28 @@
 //! What intervals prove of one box of a chart.
 
 use super::body::{Body, LegState, MOST, joint};
+use super::determinant::Turned;
 use crate::aspect::Scale;
 use crate::kinematics::WorkingMode;
 use crate::kinematics::chart::{Chart, Fold};
 use crate::kinematics::leg::equation;
 use crate::num::{Interval, Jet, Scalar};
 use crate::robot::{Actuator, Robot, Window};
+use arrayvec::ArrayVec;
+use std::cell::OnceCell;
+use std::rc::Rc;
 
-/// An enclosure of a function over a box, and of its derivatives with respect to the coordinates and to each leg's q.
-pub(super) type Function = Jet<Interval, 6>;
+/// Most coordinates that vary.
+pub(super) const AXES: usize = 3;
+
+/// An enclosure of a function over a box, and of its derivatives with respect to the coordinates that vary and, of a function of one leg, to its q.
+pub(super) type Function = Jet<Interval, { AXES + 1 }>;
+
+/// The place of the derivative with respect to the leg's q.
+pub(super) const OWN: usize = AXES;
+
+/// The same along the axes only.
+type Along = Jet<Interval, AXES>;
 
 pub(super) const ZERO: Interval = Interval::point(0.0);
 pub(super) const ONE: Interval = Interval::point(1.0);
@@ -19,13 +32,28 @@ pub(super) struct Setting<'a> {
     pub robot: &'a Robot,
     pub chart: &'a Chart,
     pub window: Window,
+    /// The coordinates that vary, up to [`AXES`].
+    pub axes: ArrayVec<usize, AXES>,
     pub scale: &'a Scale,
 }
 
-impl Setting<'_> {
+impl<'a> Setting<'a> {
+    pub(super) fn new(robot: &'a Robot, chart: &'a Chart, window: Window, scale: &'a Scale) -> Self {
+        let axes = window.axes().into_iter().collect();
+        Self { robot, chart, window, axes, scale }
+    }
+
     /// Whether leg j is the chart's own, so that its q is the first coordinate.
     pub(super) fn is_own(&self, j: usize) -> bool {
         self.chart.leg() == Some(j)
+    }
+
+    /// Coordinate k, which has the range x, as a function.
+    fn coordinate(&self, x: Interval, k: usize) -> Function {
+        match self.axes.iter().position(|&axis| axis == k) {
+            Some(a) => Function::variable(x, a),
+            None => Function::fixed(x),
+        }
     }
 }
 
@@ -36,27 +64,27 @@ pub(super) type Coordinates = [Interval; MOST];
 pub(super) type Heights = [Interval; MOST];
 
 /// All that can be.
-const ANY: Heights = [Interval { lo: 0.0, hi: f64::INFINITY }; MOST];
+pub(super) const ANY: Interval = Interval { lo: 0.0, hi: f64::INFINITY };
 
-/// The part of a range of H where √H is in `height`; negative if there is none.
-fn part(reach: Interval, height: Interval) -> Interval {
-    if height == ANY[0] {
-        return reach;
-    }
-    let (lo, hi) = (reach.lo.max(height.square().lo), reach.hi.min(height.square().hi));
-    if lo <= hi { Interval::new(lo, hi) } else { Interval::point(-1.0) }
+/// The part of a range of H where √H is in `height`, if there is one.
+fn part(reach: Interval, height: Interval) -> Option<Interval> {
+    let square = if height == ANY { reach } else { height.square() };
+    let (lo, hi) = (reach.lo.max(square.lo), reach.hi.min(square.hi));
+    (lo <= hi).then(|| Interval::new(lo, hi))
 }
 
-/// A leg in one posture over the box.
+/// A leg in one posture over a box.
 pub(super) struct Posture {
+    /// The range of H_j that is looked at; [1, 1] for struts.
+    pub reach: Interval,
     /// All q there.
     pub q: Interval,
     /// q at the box's middle, or, where the leg is loose, any q.
     pub middle: Interval,
     /// Whether q is treated as a coordinate of its own: it is not proved to be a smooth function of the others on all the box.
     pub loose: bool,
-    /// ∂q/∂y elsewhere.
-    pub rate: [Interval; MOST],
+    /// Derivatives of q along the axes elsewhere.
+    pub rate: [Interval; AXES],
     pub over: LegState<Function>,
     at_middle: LegState<Interval>,
     /// Range of s B_jj: positive in the posture.
@@ -64,201 +92,61 @@ pub(super) struct Posture {
     pub limits: Vec<Interval>,
 }
 
-/// The robot over a box.
-pub(super) struct View<'a> {
+impl Posture {
+    /// The derivative of a function of the leg along an axis, q being what it is there; at fixed q if the leg is loose.
+    fn along(&self, f: &Function, axis: usize) -> Interval {
+        if self.loose { f.gradient[axis] } else { f.gradient[axis] + f.gradient[OWN] * self.rate[axis] }
+    }
+
+    /// Entry i of the leg's row of A where the axes are at their middle: for all q, if the leg is loose.
+    fn entry_at_middle(&self, i: usize) -> Interval {
+        let there = self.at_middle.row[i];
+        if self.loose { there + self.over.row[i].gradient[OWN] * (self.q - self.middle) } else { there }
+    }
+}
+
+/// A box of coordinates, and what can be said of it without a working mode.
+pub(super) struct Place<'a, const D: usize> {
     pub setting: &'a Setting<'a>,
     pub y: Coordinates,
-    /// y minus its middle.
-    about: Coordinates,
+    /// The axes of y minus its middle.
+    about: [Interval; AXES],
+    over: Body<'a, Function, D>,
+    at_middle: Body<'a, Interval, D>,
+    /// C − A of each leg.
+    spans: ArrayVec<Span<D>, MOST>,
     /// Range of H_j; [1, 1] for struts.
-    whole: [Interval; MOST],
-    /// The part of it that is looked at.
-    pub reach: [Interval; MOST],
-    /// For s = + and s = −; a strut has the second only, and a leg that cannot close anywhere in the box has none.
-    postures: [[Option<Posture>; 2]; MOST],
+    reach: [Interval; MOST],
+    /// For s = + and s = −, once they are asked for; a strut has the second only.
+    postures: [[OnceCell<Rc<Posture>>; 2]; MOST],
 }
 
-/// What is proved of a working mode in a box.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Existence {
-    /// Everywhere, legs strictly closed and limits strictly kept.
-    Everywhere,
-    /// Nowhere.
-    Nowhere,
-    Unknown,
+/// C − A of a leg in its frame, over the box and at its middle.
+struct Span<const D: usize> {
+    over: [Function; D],
+    at_middle: [Interval; D],
 }
 
-impl<'a> View<'a> {
+impl<'a, const D: usize> Place<'a, D> {
     pub(super) fn new(setting: &'a Setting<'a>, y: Coordinates) -> Self {
-        Self::of_part(setting, y, &ANY)
-    }
-
-    /// The configurations in the box for which each h_j = √H_j is in a range.
-    pub(super) fn of_part(setting: &'a Setting<'a>, y: Coordinates, heights: &Heights) -> Self {
-        match setting.robot.platform.space() {
-            2 => Self::in_space::<2>(setting, y, heights),
-            _ => Self::in_space::<3>(setting, y, heights),
-        }
-    }
-
-    fn in_space<const D: usize>(setting: &'a Setting<'a>, y: Coordinates, heights: &Heights) -> Self {
         let middle = y.map(|x| Interval::point(x.mid()));
-        let about = std::array::from_fn(|k| y[k] - middle[k]);
-        let over = Body::<Function, D>::new(
-            setting.robot,
-            setting.chart,
-            &std::array::from_fn(|k| Function::variable(y[k], k)),
-        );
+        let axis = |a: usize| setting.axes.get(a).map_or(ZERO, |&k| y[k] - middle[k]);
+        let coordinates = std::array::from_fn(|k| setting.coordinate(y[k], k));
+        let over = Body::<Function, D>::new(setting.robot, setting.chart, &coordinates);
         let at_middle = Body::<Interval, D>::new(setting.robot, setting.chart, &middle);
-        let postures = std::array::from_fn(|_| [None, None]);
-        let mut view = Self { setting, y, about, whole: [ONE; MOST], reach: [ONE; MOST], postures };
-        for j in 0..setting.robot.dof() {
-            let span = (over.span(j), at_middle.span(j));
-            if let (Some(over), Some(at_middle)) = (over.reach(j, &span.0), at_middle.reach(j, &span.1)) {
-                view.whole[j] = view.range_in_coordinates(&over, at_middle);
-                view.reach[j] = part(view.whole[j], heights[j]);
-            }
-            if view.reach[j].hi < 0.0 {
-                continue;
-            }
-            for posture in 0..2 {
-                if posture == 1 || setting.robot.legs[j].actuator.postures() == 2 {
-                    view.postures[j][posture] =
-                        Some(view.posture(j, posture, (&over, &at_middle), (&span.0, &span.1)));
-                }
+        let span = |j: usize| Span { over: over.span(j), at_middle: at_middle.span(j) };
+        let spans = (0..setting.robot.dof()).map(span).collect();
+        let about = std::array::from_fn(axis);
+        let postures = Default::default();
+        let mut place = Self { setting, y, about, over, at_middle, spans, reach: [ONE; MOST], postures };
+        for (j, span) in place.spans.iter().enumerate() {
+            if let (Some(over), Some(middle)) =
+                (place.over.reach(j, &span.over), place.at_middle.reach(j, &span.at_middle))
+            {
+                place.reach[j] = place.range(&over, middle, None);
             }
         }
-        view
-    }
-
-    fn posture<const D: usize>(
-        &self,
-        j: usize,
-        posture: usize,
-        (over, at_middle): (&Body<'_, Function, D>, &Body<'_, Interval, D>),
-        (span, middle_span): (&[Function; D], &[Interval; D]),
-    ) -> Posture {
-        let sign = if posture == 0 { 1.0 } else { -1.0 };
-        let actuator = &self.setting.robot.legs[j].actuator;
-        let is_coordinate = self.setting.is_own(j);
-        let mut found = Joint {
-            q: self.y[0],
-            middle: Interval::point(self.y[0].mid()),
-            loose: false,
-            rate: [ZERO; MOST],
-        };
-        if !is_coordinate {
-            let narrow: [Interval; D] =
-                std::array::from_fn(|k| self.range_in_coordinates(&span[k], middle_span[k]));
-            found = self.joint(j, sign, (span, &narrow), middle_span);
-        }
-        let q = if is_coordinate {
-            Function::variable(self.y[0], 0)
-        } else {
-            Function::variable(found.q, MOST + j)
-        };
-        let mut over = over.leg(j, span, q);
-        let at_middle = at_middle.leg(j, middle_span, found.middle);
-        if !is_coordinate && actuator.postures() == 2 {
-            // |B_jj| is √H, twice that for prismatic legs.
-            let factor = if matches!(actuator, Actuator::Prismatic { .. }) { 2.0 } else { 1.0 };
-            let root = self.reach[j].sqrt() * Interval::point(factor * sign);
-            over.slope.value = over.slope.value.meet(root);
-        }
-        let mut posture = Posture {
-            q: found.q,
-            middle: found.middle,
-            loose: found.loose,
-            rate: found.rate,
-            over,
-            at_middle,
-            slope: ZERO,
-            limits: Vec::new(),
-        };
-        let range = |over: &Function, at_middle: Interval| {
-            let mut all: [Option<&Posture>; MOST] = [None; MOST];
-            all[j] = Some(&posture);
-            self.range(over, at_middle, &all)
-        };
-        let slope = range(&posture.over.slope, posture.at_middle.slope) * Interval::point(sign);
-        let limits = posture.over.limits.iter().zip(&posture.at_middle.limits);
-        let limits = limits.map(|(over, at_middle)| range(over, *at_middle)).collect();
-        (posture.slope, posture.limits) = (slope, limits);
-        posture
-    }
-
-    /// q of a leg that is not the fold's.
-    fn joint<const D: usize>(
-        &self,
-        j: usize,
-        sign: f64,
-        (span, narrow): (&[Function; D], &[Interval; D]),
-        middle_span: &[Interval; D],
-    ) -> Joint {
-        let actuator = &self.setting.robot.legs[j].actuator;
-        let reach = (actuator.postures() == 2).then_some(self.reach[j]);
-        let mut q = joint(actuator, narrow, reach, sign);
-        let f = equation(actuator, span, Function::variable(q, MOST + j));
-        let slope = f.gradient[MOST + j];
-        if !self.whole[j].is_positive() || slope.sign() == 0 {
-            let middle = Interval::point(q.mid());
-            return Joint { q, middle, loose: true, rate: [ZERO; MOST] };
-        }
-        let rate: [Interval; MOST] = std::array::from_fn(|k| -(f.gradient[k] / slope));
-        let body = Body::<Interval, D>::new(
-            self.setting.robot,
-            self.setting.chart,
-            &self.y.map(|x| Interval::point(x.mid())),
-        );
-        let middle = joint(actuator, middle_span, body.reach(j, middle_span), sign);
-        let middle = if actuator.is_angle() { nearest_turn(middle, q) } else { middle };
-        let centred = (0..MOST).fold(middle, |sum, k| sum + rate[k] * self.about[k]);
-        // Two arcs of less than half a turn have one arc in common.
-        if !actuator.is_angle() || (centred.width() < 3.0 && q.width() < 3.0) {
-            q = q.meet(centred);
-        }
-        Joint { q, middle, loose: false, rate }
-    }
-
-    /// The ranges of h_j of the legs that are loose in a mode, or `None` if none is.
-    pub(super) fn heights_of_loose(&self, mode: WorkingMode) -> Option<Heights> {
-        let legs = self.legs(mode)?;
-        let is_loose = |j: usize| legs[j].is_some_and(|leg| leg.loose);
-        let heights = std::array::from_fn(|j| if is_loose(j) { self.reach[j].sqrt() } else { ANY[j] });
-        (0..MOST).any(is_loose).then_some(heights)
-    }
-
-    /// The range of a function of the coordinates alone.
-    fn range_in_coordinates(&self, over: &Function, at_middle: Interval) -> Interval {
-        self.range(over, at_middle, &[None; MOST])
-    }
-
-    /// The range of a function of the coordinates and of the q's of the given postures: the common part of its natural
-    /// enclosure and the mean value form. Where q_j is a smooth function of the coordinates on all the box it is
-    /// differentiated as such; otherwise it counts as a coordinate.
-    fn range(&self, over: &Function, at_middle: Interval, postures: &[Option<&Posture>; MOST]) -> Interval {
-        let mut sum = at_middle;
-        for k in 0..MOST {
-            let tight = postures.iter().enumerate().filter_map(|(j, p)| Some((j, p.filter(|p| !p.loose)?)));
-            let slope =
-                tight.fold(over.gradient[k], |slope, (j, p)| slope + over.gradient[MOST + j] * p.rate[k]);
-            sum = sum + slope * self.about[k];
-        }
-        for (j, p) in postures.iter().enumerate() {
-            if let Some(p) = p.filter(|p| p.loose) {
-                sum = sum + over.gradient[MOST + j] * (p.q - p.middle);
-            }
-        }
-        over.value.meet(sum)
-    }
-
-    /// The legs in a mode, or `None` if one cannot close.
-    pub(super) fn legs(&self, mode: WorkingMode) -> Option<[Option<&Posture>; MOST]> {
-        let mut legs = [None; MOST];
-        for (j, leg) in legs.iter_mut().enumerate().take(mode.legs()) {
-            *leg = Some(self.postures[j][usize::from(mode.sign(j) < 0)].as_ref()?);
-        }
-        Some(legs)
+        place
     }
 
     /// Whether some leg certainly cannot close.
@@ -266,39 +154,97 @@ impl<'a> View<'a> {
         self.reach.iter().any(|h| h.hi < 0.0)
     }
 
-    /// Whether a mode exists in the box.
-    pub(super) fn existence(&self, mode: WorkingMode) -> Existence {
-        let Some(legs) = self.legs(mode) else { return Existence::Nowhere };
-        let mut known = Existence::Everywhere;
-        for (j, leg) in legs.iter().enumerate().filter_map(|(j, leg)| Some((j, (*leg)?))) {
-            // A strut has one posture, and det A = 0 where its length is 0.
-            let two = self.setting.robot.legs[j].actuator.postures() == 2;
-            let in_posture = two.then_some([self.reach[j], leg.slope]);
-            for value in in_posture.iter().flatten().chain(&leg.limits) {
-                if value.hi <= 0.0 {
-                    return Existence::Nowhere;
-                }
-                if !value.is_positive() {
-                    known = Existence::Unknown;
-                }
-            }
+    /// The robot in a mode, or `None` if a leg cannot close.
+    pub(super) fn in_mode(&self, mode: WorkingMode) -> Option<InMode<'_, 'a, D>> {
+        if self.cannot_close() {
+            return None;
         }
-        known
+        let leg = |j: usize| {
+            let posture = usize::from(mode.sign(j) < 0);
+            let found = || Rc::new(self.posture(j, posture, self.reach[j]));
+            self.postures[j][posture].get_or_init(found).clone()
+        };
+        Some(InMode::new(self, mode, (0..mode.legs()).map(leg).collect()))
     }
 
-    /// The range of det A in a mode that may exist.
-    pub(super) fn determinant(&self, mode: WorkingMode) -> Interval {
-        self.legs(mode).map_or(ZERO, |legs| self.determinant_of(&legs).1)
+    /// A leg in one posture, where H_j is in `reach`, a part of its range.
+    fn posture(&self, j: usize, posture: usize, reach: Interval) -> Posture {
+        let sign = if posture == 0 { 1.0 } else { -1.0 };
+        let actuator = &self.setting.robot.legs[j].actuator;
+        let is_coordinate = self.setting.is_own(j);
+        let span = &self.spans[j];
+        let found = if is_coordinate {
+            let middle = Interval::point(self.y[0].mid());
+            Joint { q: self.y[0], middle, loose: false, rate: [ZERO; AXES] }
+        } else {
+            self.joint(j, sign, reach)
+        };
+        let q = if is_coordinate {
+            self.setting.coordinate(self.y[0], 0)
+        } else {
+            Function::variable(found.q, OWN)
+        };
+        let mut over = self.over.leg(j, &span.over, q);
+        let at_middle = self.at_middle.leg(j, &span.at_middle, found.middle);
+        if !is_coordinate && actuator.postures() == 2 {
+            // |B_jj| is √H, twice that for prismatic legs.
+            let factor = if matches!(actuator, Actuator::Prismatic { .. }) { 2.0 } else { 1.0 };
+            let root = reach.sqrt() * Interval::point(factor * sign);
+            over.slope.value = over.slope.value.meet(root);
+        }
+        let Joint { q, middle, loose, rate } = found;
+        let mut posture =
+            Posture { reach, q, middle, loose, rate, over, at_middle, slope: ZERO, limits: Vec::new() };
+        let range = |over: &Function, at_middle: Interval| self.range(over, at_middle, Some(&posture));
+        let slope = range(&posture.over.slope, posture.at_middle.slope) * Interval::point(sign);
+        let limits = posture.over.limits.iter().zip(&posture.at_middle.limits);
+        let limits = limits.map(|(over, at_middle)| range(over, *at_middle)).collect();
+        (posture.slope, posture.limits) = (slope, limits);
+        posture
     }
 
-    pub(super) fn determinant_of(&self, legs: &[Option<&Posture>; MOST]) -> (Function, Interval) {
-        let rows = |j: usize| legs[j].map_or([Function::zero(); MOST], |leg| leg.over.row);
-        let middle_rows = |j: usize| legs[j].map_or([ZERO; MOST], |leg| leg.at_middle.row);
-        let n = self.setting.robot.dof();
-        let over = determinant(n, &std::array::from_fn(rows));
-        let at_middle = determinant(n, &std::array::from_fn(middle_rows));
-        let range = self.range(&over, at_middle, legs);
-        (over, range)
+    /// q of a leg that is not the chart's own.
+    fn joint(&self, j: usize, sign: f64, reach: Interval) -> Joint {
+        let actuator = &self.setting.robot.legs[j].actuator;
+        let Span { over, at_middle } = &self.spans[j];
+        let narrow: [Interval; D] = std::array::from_fn(|k| self.range(&over[k], at_middle[k], None));
+        let two = actuator.postures() == 2;
+        let mut q = joint(actuator, &narrow, two.then_some(reach), sign);
+        let f = equation(actuator, over, Function::variable(q, OWN));
+        let slope = f.gradient[OWN];
+        // A mean value needs the slope on the way from the middle, which may be in another part of H_j.
+        let in_part = reach != self.reach[j];
+        if in_part || !self.reach[j].is_positive() || slope.sign() == 0 {
+            let middle = Interval::point(q.mid());
+            return Joint { q, middle, loose: true, rate: [ZERO; AXES] };
+        }
+        let rate: [Interval; AXES] = std::array::from_fn(|a| -(f.gradient[a] / slope));
+        let middle = joint(actuator, at_middle, self.at_middle.reach(j, at_middle), sign);
+        let middle = if actuator.is_angle() { nearest_turn(middle, q) } else { middle };
+        let centred = (0..AXES).fold(middle, |sum, a| sum + rate[a] * self.about[a]);
+        // Two arcs of less than half a turn have one arc in common.
+        if !actuator.is_angle() || (centred.width() < 3.0 && q.width() < 3.0) {
+            q = q.meet(centred);
+        }
+        Joint { q, middle, loose: false, rate }
+    }
+
+    /// The range of a function of the coordinates, and of the q of a leg in its posture: the common part of its natural enclosure and the mean
+    /// value form. Where q is a smooth function of the coordinates on all the box it is differentiated as such; otherwise it
+    /// counts as a coordinate.
+    fn range(&self, over: &Function, at_middle: Interval, posture: Option<&Posture>) -> Interval {
+        let along = |a: usize| posture.map_or(over.gradient[a], |posture| posture.along(over, a));
+        let mut sum = (0..AXES).fold(at_middle, |sum, a| sum + along(a) * self.about[a]);
+        if let Some(posture) = posture.filter(|posture| posture.loose) {
+            sum = sum + over.gradient[OWN] * (posture.q - posture.middle);
+        }
+        over.value.meet(sum)
+    }
+
+    /// The range of a function along the axes.
+    fn centred(&self, over: &Along, at_middle: Interval) -> Interval {
+        let sum = over.gradient.iter().zip(&self.about).fold(at_middle, |sum, (slope, x)| sum + *slope * *x);
+        over.value.meet(sum)
     }
 
     /// Whether a chart holds all configurations of the box (of pose coordinates).
@@ -322,28 +268,13 @@ impl<'a> View<'a> {
     /// Functions of the leg of a fold that are all ≥ 0 where its chart holds the configurations, as far as the leg closes: the rod's
     /// direction in the crank's frame has −2LM u_radial = L² + M² − ‖d‖², (2LM p)² = H and M w = γ.
     fn fold_margins(&self, fold: &Fold) -> Vec<Interval> {
-        match self.setting.robot.platform.space() {
-            2 => self.fold_margins_in::<2>(fold),
-            _ => self.fold_margins_in::<3>(fold),
-        }
-    }
-
-    fn fold_margins_in<const D: usize>(&self, fold: &Fold) -> Vec<Interval> {
-        let (robot, chart) = (self.setting.robot, self.setting.chart);
-        let over = Body::<Function, D>::new(
-            robot,
-            chart,
-            &std::array::from_fn(|k| Function::variable(self.y[k], k)),
-        );
-        let at_middle = Body::<Interval, D>::new(robot, chart, &self.y.map(|x| Interval::point(x.mid())));
-        let (span, middle_span) = (over.span(fold.leg), at_middle.span(fold.leg));
-        let bend = over.bend(fold.leg, &span).0;
-        let middle_bend = at_middle.bend(fold.leg, &middle_span).0;
+        let span = &self.spans[fold.leg];
+        let bend = self.over.bend(fold.leg, &span.over).0;
+        let middle_bend = self.at_middle.bend(fold.leg, &span.at_middle).0;
         let widest = Interval::point(2.0 * fold.half_width) * fold.crank * fold.rod;
-        let mut margins =
-            vec![-self.range_in_coordinates(&bend, middle_bend), widest.square() - self.reach[fold.leg]];
+        let mut margins = vec![-self.range(&bend, middle_bend, None), widest.square() - self.reach[fold.leg]];
         if let Some((lo, hi)) = fold.axial {
-            let height = self.range_in_coordinates(&span[D - 1], middle_span[D - 1]);
+            let height = self.range(&span.over[D - 1], span.at_middle[D - 1], None);
             margins.push(height - fold.rod * Interval::point(lo));
             margins.push(fold.rod * Interval::point(hi) - height);
         }
@@ -351,24 +282,123 @@ impl<'a> View<'a> {
     }
 }
 
+/// What is proved of a working mode in a box.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Existence {
+    /// Everywhere, legs strictly closed and limits strictly kept.
+    Everywhere,
+    /// Nowhere.
+    Nowhere,
+    Unknown,
+}
+
+/// The robot in one working mode over a box, or over the part of its configurations where some h_j are in given ranges.
+pub(super) struct InMode<'p, 'a, const D: usize> {
+    pub place: &'p Place<'a, D>,
+    pub mode: WorkingMode,
+    pub legs: ArrayVec<Rc<Posture>, MOST>,
+    determinant: OnceCell<Determinant>,
+}
+
+/// det A over a box.
+pub(super) struct Determinant {
+    pub range: Interval,
+    /// Derivatives along the axes, all q being fixed.
+    pub along: [Interval; AXES],
+    /// Derivatives with respect to the q's.
+    pub by_joint: [Interval; MOST],
+    pub turned: Turned,
+}
+
+impl<'p, 'a, const D: usize> InMode<'p, 'a, D> {
+    fn new(place: &'p Place<'a, D>, mode: WorkingMode, legs: ArrayVec<Rc<Posture>, MOST>) -> Self {
+        Self { place, mode, legs, determinant: OnceCell::new() }
+    }
+
+    /// The ranges of h_j of the legs that are loose, or `None` if none is.
+    pub(super) fn heights_of_loose(&self) -> Option<Heights> {
+        let height = |j: usize| match self.legs.get(j) {
+            Some(leg) if leg.loose => leg.reach.sqrt(),
+            _ => ANY,
+        };
+        self.legs.iter().any(|leg| leg.loose).then(|| std::array::from_fn(height))
+    }
+
+    /// The configurations whose h_j are in these ranges, if there are any.
+    pub(super) fn part(&self, heights: &Heights) -> Option<Self> {
+        let leg = |j: usize| {
+            if heights[j] == ANY {
+                return Some(self.legs[j].clone());
+            }
+            let posture = usize::from(self.mode.sign(j) < 0);
+            Some(Rc::new(self.place.posture(j, posture, part(self.place.reach[j], heights[j])?)))
+        };
+        let legs = (0..self.legs.len()).map(leg).collect::<Option<_>>()?;
+        Some(Self::new(self.place, self.mode, legs))
+    }
+
+    /// Whether the mode exists.
+    pub(super) fn existence(&self) -> Existence {
+        let mut known = Existence::Everywhere;
+        for (leg, posture) in self.place.setting.robot.legs.iter().zip(&self.legs) {
+            // A strut has one posture, and det A = 0 where its length is 0.
+            let two = leg.actuator.postures() == 2;
+            let in_posture = two.then_some([posture.reach, posture.slope]);
+            for value in in_posture.iter().flatten().chain(&posture.limits) {
+                if value.hi <= 0.0 {
+                    return Existence::Nowhere;
+                }
+                if !value.is_positive() {
+                    known = Existence::Unknown;
+                }
+            }
+        }
+        known
+    }
+
+    pub(super) fn determinant(&self) -> &Determinant {
+        self.determinant.get_or_init(|| self.expand())
+    }
+
+    fn expand(&self) -> Determinant {
+        let n = self.legs.len();
+        let along = |leg: &Posture, f: &Function| std::array::from_fn(|a| leg.along(f, a));
+        let over = self.rows(|leg, i| {
+            let f = &leg.over.row[i];
+            Along { value: f.value, gradient: along(leg, f) }
+        });
+        let at_middle = self.rows(Posture::entry_at_middle);
+        let turned = Turned::near(&at_middle);
+        let (cofactors, middle) = (turned.cofactors(&over), turned.cofactors(&at_middle));
+        let cofactor = |j: usize, i: usize| self.place.centred(&cofactors[j][i], middle[j][i]);
+        let cofactors: [[Interval; MOST]; MOST] =
+            std::array::from_fn(|j| std::array::from_fn(|i| cofactor(j, i)));
+        let sum = |j: usize, derivative: &dyn Fn(&Function) -> Interval| {
+            (0..n).fold(ZERO, |sum, i| sum + cofactors[j][i] * derivative(&self.legs[j].over.row[i]))
+        };
+        let by_joint = std::array::from_fn(|j| if j < n { sum(j, &|f| f.gradient[OWN]) } else { ZERO });
+        let along = |a: usize| (0..n).fold(ZERO, |all, j| all + sum(j, &|f| f.gradient[a]));
+        let total = |a: usize| (0..n).fold(ZERO, |all, j| all + sum(j, &|f| self.legs[j].along(f, a)));
+        let over = Along { value: turned.determinant(&over).value, gradient: std::array::from_fn(total) };
+        let range = self.place.centred(&over, turned.determinant(&at_middle));
+        Determinant { range, along: std::array::from_fn(along), by_joint, turned }
+    }
+
+    /// Entries of A, by leg and column.
+    fn rows<T>(&self, entry: impl Fn(&Posture, usize) -> T) -> ArrayVec<[T; MOST], MOST> {
+        self.legs.iter().map(|leg| std::array::from_fn(|i| entry(leg, i))).collect()
+    }
+}
+
 struct Joint {
     q: Interval,
     middle: Interval,
     loose: bool,
-    rate: [Interval; MOST],
+    rate: [Interval; AXES],
 }
 
 /// An angle, turned to be near another.
 fn nearest_turn(angle: Interval, near: Interval) -> Interval {
     let turns = ((near.mid() - angle.mid()) / std::f64::consts::TAU).round();
     angle + Interval::PI * Interval::point(2.0 * turns)
-}
-
-/// The determinant of the first n rows and columns, n = 2 or 3.
-pub(super) fn determinant<T: Scalar>(n: usize, m: &[[T; MOST]; MOST]) -> T {
-    let minor = |i: usize, j: usize| m[1][i] * m[2][j] - m[1][j] * m[2][i];
-    match n {
-        2 => m[0][0] * m[1][1] - m[0][1] * m[1][0],
-        _ => m[0][0] * minor(1, 2) + m[0][1] * minor(2, 0) + m[0][2] * minor(0, 1),
-    }
 }

@@ -142,6 +142,7 @@ impl Map {
         }
         let file: FileIn = serde_json::from_slice(&text)?;
         check_robot(&file.robot)?;
+        holds(file.robot.dof() <= 3, "maps are made for robots with two or three degrees of freedom")?;
         let window = file.robot.slice(&[])?;
         let unit = Measure::over(&file.robot, &window);
         let modes = file.robot.working_modes();
