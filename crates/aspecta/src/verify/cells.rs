@@ -1,6 +1,6 @@
 //! The boxes of a sheet and which of them touch.
 
-use super::view::{AXES, Coordinates};
+use super::place::{AXES, Coordinates};
 use crate::certificate::{DEEPEST, Entry, Leaf, Tree};
 use crate::num::Interval;
 use crate::robot::Window;

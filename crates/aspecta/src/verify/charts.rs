@@ -3,7 +3,7 @@
 use super::body::Body;
 use super::cells::Cells;
 use super::claims::halves;
-use super::view::{Coordinates, Place, Setting};
+use super::place::{Coordinates, Place, Setting};
 use crate::certificate::Certificate;
 use crate::kinematics::chart::{Chart, Fold};
 use crate::num::{Interval, Scalar};

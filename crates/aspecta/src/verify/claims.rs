@@ -1,6 +1,7 @@
 //! What is claimed of a leaf, proved again by cutting it up.
 
-use super::view::{Coordinates, Existence, Place, Setting};
+use super::in_mode::Existence;
+use super::place::{Coordinates, Place, Setting};
 use crate::certificate::Leaf;
 use crate::kinematics::WorkingMode;
 use crate::kinematics::chart::Chart;

@@ -2,7 +2,7 @@
 
 use super::graph::Sets;
 use super::links::Link;
-use super::view::Place;
+use super::place::Place;
 use super::{Checked, Fault, Sheet, Verdict, charts};
 use crate::certificate::{Certificate, Claim, Leaf};
 use crate::kinematics::chart::Chart;

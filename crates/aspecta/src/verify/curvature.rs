@@ -6,7 +6,7 @@
 
 use super::body::{Body, MOST};
 use super::determinant::Turned;
-use super::view::{AXES, Coordinates, Setting};
+use super::place::{AXES, Coordinates, Setting};
 use crate::num::{Interval, Jet, Scalar};
 use arrayvec::ArrayVec;
 use nalgebra::{DMatrix, DVector};

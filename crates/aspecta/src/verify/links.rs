@@ -1,7 +1,8 @@
 //! Joins and seams: what links inside leaves that do not touch.
 
 use super::claims::sign_of;
-use super::view::{Coordinates, Existence, Place, Setting};
+use super::in_mode::Existence;
+use super::place::{Coordinates, Place, Setting};
 use super::{Fault, Sheet, Verdict, charts, point};
 use crate::certificate::{Certificate, Join, Seam};
 use crate::kinematics::WorkingMode;

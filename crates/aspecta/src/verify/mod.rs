@@ -45,12 +45,13 @@ mod curvature;
 mod determinant;
 mod direction;
 mod graph;
+mod in_mode;
 mod links;
+mod place;
 mod summit;
 #[cfg(test)]
 mod tests;
 mod verdict;
-mod view;
 
 pub use verdict::{Checked, Counts, Fault, Verdict};
 
@@ -59,9 +60,9 @@ use crate::kinematics::chart::Chart;
 use crate::num::Interval;
 use crate::paving::{Control, Progress};
 use cells::Cells;
+use place::{Coordinates, Setting};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
-use view::{Coordinates, Setting};
 
 /// Faults after which no more are sought.
 const ENOUGH: usize = 10;

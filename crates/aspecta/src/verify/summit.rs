@@ -3,7 +3,8 @@
 use super::body::MOST;
 use super::curvature::has_no_maximum;
 use super::direction::climbable;
-use super::view::{ANY, AXES, Existence, Heights, InMode, ONE, OWN, Posture, ZERO};
+use super::in_mode::{Existence, InMode};
+use super::place::{ANY, AXES, Heights, ONE, OWN, Posture, ZERO};
 use crate::num::{Interval, Scalar};
 
 /// A vector along the axes.

@@ -1,7 +1,7 @@
-//! What intervals prove of one box of a chart.
+//! What intervals prove of one box of a chart, leg by leg.
 
 use super::body::{Body, LegState, MOST, joint};
-use super::determinant::Turned;
+use super::in_mode::InMode;
 use crate::aspect::Scale;
 use crate::kinematics::WorkingMode;
 use crate::kinematics::chart::{Chart, Fold};
@@ -22,7 +22,7 @@ pub(super) type Function = Jet<Interval, { AXES + 1 }>;
 pub(super) const OWN: usize = AXES;
 
 /// The same along the axes only.
-type Along = Jet<Interval, AXES>;
+pub(super) type Along = Jet<Interval, AXES>;
 
 pub(super) const ZERO: Interval = Interval::point(0.0);
 pub(super) const ONE: Interval = Interval::point(1.0);
@@ -66,13 +66,6 @@ pub(super) type Heights = [Interval; MOST];
 /// All that can be.
 pub(super) const ANY: Interval = Interval { lo: 0.0, hi: f64::INFINITY };
 
-/// The part of a range of H where √H is in `height`, if there is one.
-fn part(reach: Interval, height: Interval) -> Option<Interval> {
-    let square = if height == ANY { reach } else { height.square() };
-    let (lo, hi) = (reach.lo.max(square.lo), reach.hi.min(square.hi));
-    (lo <= hi).then(|| Interval::new(lo, hi))
-}
-
 /// A leg in one posture over a box.
 pub(super) struct Posture {
     /// The range of H_j that is looked at; [1, 1] for struts.
@@ -88,18 +81,18 @@ pub(super) struct Posture {
     pub over: LegState<Function>,
     at_middle: LegState<Interval>,
     /// Range of s B_jj: positive in the posture.
-    slope: Interval,
+    pub slope: Interval,
     pub limits: Vec<Interval>,
 }
 
 impl Posture {
     /// The derivative of a function of the leg along an axis, q being what it is there; at fixed q if the leg is loose.
-    fn along(&self, f: &Function, axis: usize) -> Interval {
+    pub(super) fn along(&self, f: &Function, axis: usize) -> Interval {
         if self.loose { f.gradient[axis] } else { f.gradient[axis] + f.gradient[OWN] * self.rate[axis] }
     }
 
     /// Entry i of the leg's row of A where the axes are at their middle: for all q, if the leg is loose.
-    fn entry_at_middle(&self, i: usize) -> Interval {
+    pub(super) fn entry_at_middle(&self, i: usize) -> Interval {
         let there = self.at_middle.row[i];
         if self.loose { there + self.over.row[i].gradient[OWN] * (self.q - self.middle) } else { there }
     }
@@ -116,7 +109,7 @@ pub(super) struct Place<'a, const D: usize> {
     /// C − A of each leg.
     spans: ArrayVec<Span<D>, MOST>,
     /// Range of H_j; [1, 1] for struts.
-    reach: [Interval; MOST],
+    pub reach: [Interval; MOST],
     /// For s = + and s = −, once they are asked for; a strut has the second only.
     postures: [[OnceCell<Rc<Posture>>; 2]; MOST],
 }
@@ -168,7 +161,7 @@ impl<'a, const D: usize> Place<'a, D> {
     }
 
     /// A leg in one posture, where H_j is in `reach`, a part of its range.
-    fn posture(&self, j: usize, posture: usize, reach: Interval) -> Posture {
+    pub(super) fn posture(&self, j: usize, posture: usize, reach: Interval) -> Posture {
         let sign = if posture == 0 { 1.0 } else { -1.0 };
         let actuator = &self.setting.robot.legs[j].actuator;
         let is_coordinate = self.setting.is_own(j);
@@ -242,7 +235,7 @@ impl<'a, const D: usize> Place<'a, D> {
     }
 
     /// The range of a function along the axes.
-    fn centred(&self, over: &Along, at_middle: Interval) -> Interval {
+    pub(super) fn centred(&self, over: &Along, at_middle: Interval) -> Interval {
         let sum = over.gradient.iter().zip(&self.about).fold(at_middle, |sum, (slope, x)| sum + *slope * *x);
         over.value.meet(sum)
     }
@@ -279,114 +272,6 @@ impl<'a, const D: usize> Place<'a, D> {
             margins.push(fold.rod * Interval::point(hi) - height);
         }
         margins
-    }
-}
-
-/// What is proved of a working mode in a box.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Existence {
-    /// Everywhere, legs strictly closed and limits strictly kept.
-    Everywhere,
-    /// Nowhere.
-    Nowhere,
-    Unknown,
-}
-
-/// The robot in one working mode over a box, or over the part of its configurations where some h_j are in given ranges.
-pub(super) struct InMode<'p, 'a, const D: usize> {
-    pub place: &'p Place<'a, D>,
-    pub mode: WorkingMode,
-    pub legs: ArrayVec<Rc<Posture>, MOST>,
-    determinant: OnceCell<Determinant>,
-}
-
-/// det A over a box.
-pub(super) struct Determinant {
-    pub range: Interval,
-    /// Derivatives along the axes, all q being fixed.
-    pub along: [Interval; AXES],
-    /// Derivatives with respect to the q's.
-    pub by_joint: [Interval; MOST],
-    pub turned: Turned,
-}
-
-impl<'p, 'a, const D: usize> InMode<'p, 'a, D> {
-    fn new(place: &'p Place<'a, D>, mode: WorkingMode, legs: ArrayVec<Rc<Posture>, MOST>) -> Self {
-        Self { place, mode, legs, determinant: OnceCell::new() }
-    }
-
-    /// The ranges of h_j of the legs that are loose, or `None` if none is.
-    pub(super) fn heights_of_loose(&self) -> Option<Heights> {
-        let height = |j: usize| match self.legs.get(j) {
-            Some(leg) if leg.loose => leg.reach.sqrt(),
-            _ => ANY,
-        };
-        self.legs.iter().any(|leg| leg.loose).then(|| std::array::from_fn(height))
-    }
-
-    /// The configurations whose h_j are in these ranges, if there are any.
-    pub(super) fn part(&self, heights: &Heights) -> Option<Self> {
-        let leg = |j: usize| {
-            if heights[j] == ANY {
-                return Some(self.legs[j].clone());
-            }
-            let posture = usize::from(self.mode.sign(j) < 0);
-            Some(Rc::new(self.place.posture(j, posture, part(self.place.reach[j], heights[j])?)))
-        };
-        let legs = (0..self.legs.len()).map(leg).collect::<Option<_>>()?;
-        Some(Self::new(self.place, self.mode, legs))
-    }
-
-    /// Whether the mode exists.
-    pub(super) fn existence(&self) -> Existence {
-        let mut known = Existence::Everywhere;
-        for (leg, posture) in self.place.setting.robot.legs.iter().zip(&self.legs) {
-            // A strut has one posture, and det A = 0 where its length is 0.
-            let two = leg.actuator.postures() == 2;
-            let in_posture = two.then_some([posture.reach, posture.slope]);
-            for value in in_posture.iter().flatten().chain(&posture.limits) {
-                if value.hi <= 0.0 {
-                    return Existence::Nowhere;
-                }
-                if !value.is_positive() {
-                    known = Existence::Unknown;
-                }
-            }
-        }
-        known
-    }
-
-    pub(super) fn determinant(&self) -> &Determinant {
-        self.determinant.get_or_init(|| self.expand())
-    }
-
-    fn expand(&self) -> Determinant {
-        let n = self.legs.len();
-        let along = |leg: &Posture, f: &Function| std::array::from_fn(|a| leg.along(f, a));
-        let over = self.rows(|leg, i| {
-            let f = &leg.over.row[i];
-            Along { value: f.value, gradient: along(leg, f) }
-        });
-        let at_middle = self.rows(Posture::entry_at_middle);
-        let turned = Turned::near(&at_middle);
-        let (cofactors, middle) = (turned.cofactors(&over), turned.cofactors(&at_middle));
-        let cofactor = |j: usize, i: usize| self.place.centred(&cofactors[j][i], middle[j][i]);
-        let cofactors: [[Interval; MOST]; MOST] =
-            std::array::from_fn(|j| std::array::from_fn(|i| cofactor(j, i)));
-        let sum = |j: usize, derivative: &dyn Fn(&Function) -> Interval| {
-            (0..n).fold(ZERO, |sum, i| sum + cofactors[j][i] * derivative(&self.legs[j].over.row[i]))
-        };
-        let by_joint = std::array::from_fn(|j| if j < n { sum(j, &|f| f.gradient[OWN]) } else { ZERO });
-        let along = |a: usize| (0..n).fold(ZERO, |all, j| all + sum(j, &|f| f.gradient[a]));
-        let total = |a: usize| (0..n).fold(ZERO, |all, j| all + sum(j, &|f| self.legs[j].along(f, a)));
-        let over = Along { value: turned.determinant(&over).value, gradient: std::array::from_fn(total) };
-        let range = self.place.centred(&over, turned.determinant(&at_middle));
-        Determinant { range, along: std::array::from_fn(along), by_joint, turned }
-    }
-
-    /// Entries of A, by leg and column.
-    fn rows<T>(&self, entry: impl Fn(&Posture, usize) -> T) -> ArrayVec<[T; MOST], MOST> {
-        self.legs.iter().map(|leg| std::array::from_fn(|i| entry(leg, i))).collect()
     }
 }
 
