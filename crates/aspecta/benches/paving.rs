@@ -1,8 +1,9 @@
-//! Boxes per second of the paving, and whole analyses.
+//! Boxes per second of the paving, whole analyses, and the check of their certificates.
 
 use aspecta::aspect::{Options, analyze};
 use aspecta::paving::{Budget, Control, Paving};
 use aspecta::robot::{Robot, catalogue};
+use aspecta::verify::verify;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
@@ -39,5 +40,20 @@ fn analysis(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, paving, analysis);
+fn verification(c: &mut Criterion) {
+    let never = AtomicBool::new(false);
+    let control = Control { cancelled: &never, progress: &|_| {} };
+    let mut group = c.benchmark_group("verify");
+    group.sample_size(10).measurement_time(Duration::from_secs(20));
+    let slice = vec![(2, 0.8), (3, 0.1), (4, 0.0), (5, 0.0)];
+    for (name, fix) in [("five-bar", vec![]), ("gough-stewart", slice)] {
+        let options = Options { fix, certificate: true, ..Options::default() };
+        let analysis = analyze(&robot(name), &options, &control).expect("an analysis");
+        let certificate = analysis.certificate.expect("a certificate that was asked for");
+        group.bench_function(name, |b| b.iter(|| verify(&certificate, &control)));
+    }
+    group.finish();
+}
+
+criterion_group!(benches, paving, analysis, verification);
 criterion_main!(benches);
