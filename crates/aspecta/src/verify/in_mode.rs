@@ -107,7 +107,12 @@ impl<'p, 'a, const D: usize> InMode<'p, 'a, D> {
         let along = |a: usize| (0..n).fold(ZERO, |all, j| all + sum(j, &|f| f.gradient[a]));
         let total = |a: usize| (0..n).fold(ZERO, |all, j| all + sum(j, &|f| self.legs[j].along(f, a)));
         let over = Along { value: turned.determinant(&over).value, gradient: std::array::from_fn(total) };
+        // The q's of loose legs as they are, or from their middles.
+        let still = turned.determinant(&self.rows(Posture::entry_at_rest));
+        let loose = self.legs.iter().zip(by_joint).filter(|(leg, _)| leg.loose);
+        let moved = loose.fold(still, |sum, (leg, slope)| sum + slope * (leg.q - leg.middle));
         let range = self.place.centred(&over, turned.determinant(&at_middle));
+        let range = range.meet(self.place.centred(&over, moved));
         Determinant { range, along: std::array::from_fn(along), by_joint, turned }
     }
 

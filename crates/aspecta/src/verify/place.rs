@@ -91,6 +91,11 @@ impl Posture {
         if self.loose { f.gradient[axis] } else { f.gradient[axis] + f.gradient[OWN] * self.rate[axis] }
     }
 
+    /// Entry i of the leg's row of A where the axes and q are at their middles.
+    pub(super) fn entry_at_rest(&self, i: usize) -> Interval {
+        self.at_middle.row[i]
+    }
+
     /// Entry i of the leg's row of A where the axes are at their middle: for all q, if the leg is loose.
     pub(super) fn entry_at_middle(&self, i: usize) -> Interval {
         let there = self.at_middle.row[i];
