@@ -2,7 +2,7 @@
 
 use super::analyze::Options;
 use crate::kinematics::WorkingMode;
-use crate::paving::MODES;
+use crate::paving::{AXES, MODES};
 use crate::robot::{Robot, SliceError};
 
 /// Why a robot cannot be analysed.
@@ -51,14 +51,14 @@ pub(super) fn refuse(robot: &Robot, options: &Options) -> Result<(), AnalysisErr
     let dof = robot.dof();
     let held = |k: usize| options.fix.iter().any(|&(held, _)| held == k);
     let free: Vec<usize> = (0..dof).filter(|&k| !held(k)).collect();
-    if free.len() > MOST_FREE {
+    if free.len() > AXES {
         let hold = |k: usize| {
             let middle =
                 robot.window[k].filter(|r| !(r.0..=r.1).contains(&0.0)).map_or(0.0, |r| 0.5 * (r.0 + r.1));
             let value = options.fix.iter().find(|&&(held, _)| held == k).map_or(middle, |&(_, value)| value);
             format!("{}={value}", robot.platform.coordinates()[k].name)
         };
-        let all = (0..dof).filter(|&k| held(k) || free[MOST_FREE..].contains(&k));
+        let all = (0..dof).filter(|&k| held(k) || free[AXES..].contains(&k));
         let hold = all.map(hold).collect::<Vec<_>>().join(",");
         return Err(AnalysisError::Dimension { robot: robot.name.clone(), dof, free: free.len(), hold });
     }
@@ -68,6 +68,3 @@ pub(super) fn refuse(robot: &Robot, options: &Options) -> Result<(), AnalysisErr
     }
     Ok(())
 }
-
-/// Most coordinates that can be free.
-const MOST_FREE: usize = 3;

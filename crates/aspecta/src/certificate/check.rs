@@ -3,6 +3,7 @@
 use super::{Certificate, TreeError};
 use crate::kinematics::chart::{Chain, Chart, Fold};
 use crate::num::{Interval, Scalar, dot};
+use crate::paving::AXES;
 use crate::robot::{Actuator, Leg, Limit, Platform, Robot, RobotError, Window};
 
 /// Parts that do not fit together.
@@ -119,7 +120,10 @@ impl Certificate {
             ranges().any(|r| r.0 < r.1),
             "all coordinates of the window are held: there is nothing to analyse",
         )?;
-        holds(ranges().filter(|r| r.0 < r.1).count() <= 3, "more than three coordinates of the window vary")
+        holds(
+            ranges().filter(|r| r.0 < r.1).count() <= AXES,
+            "more than three coordinates of the window vary",
+        )
     }
 
     fn check_modes(&self, n: usize) -> Result<(), Unsound> {

@@ -7,6 +7,6 @@ mod touch;
 mod tree;
 
 pub use budget::{Budget, Control, MAX_BOXES, MAX_DEPTH, PAVING_SHARE, Progress, Stop};
-pub use tree::{BoxOf, ClassSet, MODES, Mark, Node, Paving};
+pub use tree::{AXES, BoxOf, ClassSet, MODES, Mark, Node, Paving};
 
 pub(crate) use refine::for_paving;

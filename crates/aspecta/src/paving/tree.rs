@@ -11,6 +11,9 @@ pub type ClassSet = u16;
 /// Most modes of one paving.
 pub const MODES: usize = 8;
 
+/// Most coordinates that vary in one paving.
+pub const AXES: usize = 3;
+
 /// A box: cell `corner` of the grid window / 2^depth.
 ///
 /// A class is *inside* (the closed box lies in S_{s,σ}, proved), *undecided*, or neither: outside

@@ -1,8 +1,9 @@
 //! The boxes of a sheet and which of them touch.
 
-use super::place::{AXES, Coordinates};
+use super::place::Coordinates;
 use crate::certificate::{DEEPEST, Entry, Leaf, Tree};
 use crate::num::Interval;
+use crate::paving::AXES;
 use crate::robot::Window;
 
 /// A leaf: cell `corner` of the grid window / 2^depth. Entries beyond the axes are 0.

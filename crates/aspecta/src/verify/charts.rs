@@ -2,7 +2,6 @@
 
 use super::body::Body;
 use super::cells::Cells;
-use super::claims::halves;
 use super::place::{Coordinates, Place, Setting};
 use crate::certificate::Certificate;
 use crate::kinematics::chart::{Chart, Fold};
@@ -82,8 +81,7 @@ pub(super) fn are_disjoint<const D: usize>(
     for _ in 0..EFFORT {
         let Some(y) = open.pop() else { return true };
         if !Place::<D>::new(setting, y).is_clear_of(other_chart) {
-            let (low, high) = halves(setting, &y);
-            open.extend([low, high]);
+            open.extend(setting.halves(&y));
         }
     }
     false
@@ -155,7 +153,7 @@ fn meet<const D: usize>(
         found.extend(here);
         return;
     }
-    let (low, high) = halves(setting, face);
+    let [low, high] = setting.halves(face);
     meet::<D>(setting, &low, classes, sheet_0, halvings - 1, found);
     meet::<D>(setting, &high, classes, sheet_0, halvings - 1, found);
 }

@@ -76,7 +76,7 @@ pub(super) fn prove<const D: usize>(
             let class = if needs.covered { None } else { needs.first() };
             return Err(Unproved { class, reason });
         }
-        let (low, high) = halves(setting, &y);
+        let [low, high] = setting.halves(&y);
         open.extend([(high, needs), (low, needs)]);
     }
     Ok(spent)
@@ -135,19 +135,4 @@ fn settle<const D: usize>(
         }
     }
     Ok(doubt.unwrap_or(COVERED))
-}
-
-/// A box cut in two across the coordinate in which it is widest, in proportion to the window.
-pub(super) fn halves(setting: &Setting<'_>, y: &Coordinates) -> (Coordinates, Coordinates) {
-    let ranges = &setting.window.ranges;
-    let share = |k: &usize| {
-        let whole = ranges[*k].1 - ranges[*k].0;
-        if whole > 0.0 { (y[*k].hi - y[*k].lo) / whole } else { 0.0 }
-    };
-    let widest = (0..ranges.len()).max_by(|a, b| share(a).total_cmp(&share(b))).unwrap_or(0);
-    let middle = y[widest].mid();
-    let (mut low, mut high) = (*y, *y);
-    low[widest].hi = middle;
-    high[widest].lo = middle;
-    (low, high)
 }

@@ -6,8 +6,9 @@
 
 use super::body::{Body, MOST};
 use super::determinant::Turned;
-use super::place::{AXES, Coordinates, Setting};
+use super::place::{Coordinates, Setting};
 use crate::num::{Interval, Jet, Scalar};
+use crate::paving::AXES;
 use arrayvec::ArrayVec;
 use nalgebra::{DMatrix, DVector};
 
@@ -18,26 +19,21 @@ fn twice<S: Scalar>(value: S, first: S, second: S) -> Twice<S> {
     Jet { value: Jet { value, gradient: [first] }, gradient: [Jet { value: first, gradient: [second] }] }
 }
 
-/// The second derivative of det A along the line y + t v at t = 0, where the legs have the joint coordinates q (if a leg is the
-/// fold's, its own is not looked at).
-fn second<S: Scalar, const D: usize>(
+/// A along the line y + t v at t = 0, where the legs have the joint coordinates q (if a leg is the fold's, its own is not looked at).
+fn rows_along<S: Scalar, const D: usize>(
     setting: &Setting<'_>,
     y: &[S; MOST],
     v: &[f64; MOST],
     q: &[S; MOST],
-    turned: &Turned,
-) -> S {
+) -> ArrayVec<[Twice<S>; MOST], MOST> {
     let zero = S::zero();
     let line = |k: usize| twice(y[k], S::constant(Interval::point(v[k])), zero);
     let line: [Twice<S>; MOST] = std::array::from_fn(line);
     let body = Body::<Twice<S>, D>::new(setting.robot, setting.chart, &line);
-    let n = setting.robot.dof();
-    let mut rows = [[Twice::<S>::zero(); MOST]; MOST];
-    for j in 0..n {
+    let row = |j: usize| {
         let span = body.span(j);
         if setting.is_own(j) {
-            rows[j] = body.leg(j, &span, line[0]).row;
-            continue;
+            return body.leg(j, &span, line[0]).row;
         }
         // f(y + t v, q(t)) = 0 for all t: its first derivative gives q̇, its second q̈.
         let still = body.leg(j, &span, twice(q[j], zero, zero));
@@ -45,12 +41,17 @@ fn second<S: Scalar, const D: usize>(
         let rate = -(still.equation.gradient[0].value / slope);
         let moving = body.leg(j, &span, twice(q[j], rate, zero));
         let bend = -(moving.equation.gradient[0].gradient[0] / slope);
-        rows[j] = body.leg(j, &span, twice(q[j], rate, bend)).row;
-    }
-    turned.determinant(&rows[..n]).gradient[0].gradient[0]
+        body.leg(j, &span, twice(q[j], rate, bend)).row
+    };
+    (0..setting.robot.dof()).map(row).collect()
 }
 
-/// Whether σ det A has no local maximum in the box; σ = `sign`, `q` as in [`second`] over the box and at its middle.
+/// The second derivative.
+fn second<S: Scalar>(det: &Twice<S>) -> S {
+    det.gradient[0].gradient[0]
+}
+
+/// Whether σ det A has no local maximum in the box; σ = `sign`, `q` as in [`rows_along`] over the box and at its middle.
 pub(super) fn has_no_maximum<const D: usize>(
     setting: &Setting<'_>,
     y: &Coordinates,
@@ -63,7 +64,7 @@ pub(super) fn has_no_maximum<const D: usize>(
     let along = |some: &[usize]| {
         let mut v = [0.0; MOST];
         some.iter().for_each(|&a| v[axes[a]] += 1.0);
-        second::<f64, D>(setting, &middle, &v, q.1, turned)
+        second(&turned.determinant(&rows_along::<f64, D>(setting, &middle, &v, q.1)))
     };
     // How the line is found does not matter: the greatest eigenvector of the Hessian at the middle.
     let straight: ArrayVec<f64, AXES> = (0..axes.len()).map(|a| along(&[a])).collect();
@@ -84,5 +85,6 @@ pub(super) fn has_no_maximum<const D: usize>(
     let vector = eigen.eigenvectors.column(steepest);
     let mut v = [0.0; MOST];
     axes.iter().enumerate().for_each(|(a, &k)| v[k] = vector[a]);
-    (second::<Interval, D>(setting, y, &v, q.0, turned) * Interval::point(sign)).is_positive()
+    let all = turned.expansions(&rows_along::<Interval, D>(setting, y, &v, q.0));
+    all.iter().any(|det| (second(det) * Interval::point(sign)).is_positive())
 }

@@ -2,6 +2,7 @@
 
 use super::body::MOST;
 use crate::num::{Interval, Scalar};
+use arrayvec::ArrayVec;
 use nalgebra::DMatrix;
 
 /// Sets of columns, as bits.
@@ -46,9 +47,9 @@ fn signed<T: Scalar>(changes: u32, x: T) -> T {
     if changes.is_multiple_of(2) { x } else { -x }
 }
 
-/// The determinant of a square matrix; its rows are padded to [`MOST`] entries.
+/// The determinant of a square matrix, expanded along its first row; rows are padded to [`MOST`] entries.
 pub(super) fn determinant<T: Scalar>(rows: &[[T; MOST]]) -> T {
-    minors(rows, Rows::First)[(1 << rows.len()) - 1]
+    minors(rows, Rows::Last)[(1 << rows.len()) - 1]
 }
 
 /// The derivatives of [`determinant`] with respect to all entries: the rows above an entry and those below it share the columns beside it out in
@@ -93,6 +94,16 @@ impl Turned {
                 determinant(&sandwich(p, rows, r)[..rows.len()]).scale(Interval::point(1.0) / *det)
             }
         }
+    }
+
+    /// det A in one or more ways, all of which hold: of up to three rows along each, because the entries of that row then count once.
+    pub(super) fn expansions<T: Scalar>(&self, rows: &[[T; MOST]]) -> ArrayVec<T, MOST> {
+        let along = |j: usize| {
+            let mut first: ArrayVec<[T; MOST], MOST> = rows.iter().copied().collect();
+            first.swap(0, j);
+            signed((j > 0).into(), self.determinant(&first))
+        };
+        (0..if self.by.is_none() { rows.len() } else { 1 }).map(along).collect()
     }
 
     /// [`cofactors`] by way of those of PAR: cof PAR = cof P · cof A · cof R, and cof P = det P · P^{-T}.
@@ -165,6 +176,9 @@ mod tests {
             // Enclosures of both kinds overlap, as they hold the same numbers.
             let overlap = |a: Interval, b: Interval| a.lo <= b.hi && b.lo <= a.hi && a.width() < 1e-12;
             assert!(overlap(turned.determinant(&exact), determinant(&exact)), "{n}");
+            let all = turned.expansions(&exact);
+            assert_eq!(all.len(), if n > 3 { 1 } else { n });
+            assert!(all.iter().all(|&found| overlap(found, determinant(&exact))), "{n}");
             let (found, expected) = (turned.cofactors(&exact), cofactors(&exact));
             for (i, k) in (0..n).flat_map(|i| (0..n).map(move |k| (i, k))) {
                 assert!(overlap(found[i][k], expected[i][k]), "{n}: {i}, {k}");

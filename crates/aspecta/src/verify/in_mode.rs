@@ -2,9 +2,10 @@
 
 use super::body::MOST;
 use super::determinant::Turned;
-use super::place::{ANY, AXES, Along, Function, Heights, OWN, Place, Posture, ZERO};
+use super::place::{ANY, Along, Function, Heights, OWN, Place, Posture, ZERO};
 use crate::kinematics::WorkingMode;
-use crate::num::{Interval, Scalar};
+use crate::num::{Interval, Scalar, dot};
+use crate::paving::AXES;
 use arrayvec::ArrayVec;
 use std::cell::OnceCell;
 use std::rc::Rc;
@@ -42,13 +43,18 @@ impl<'p, 'a, const D: usize> InMode<'p, 'a, D> {
         Self { place, mode, legs, determinant: OnceCell::new() }
     }
 
+    /// Whether some leg is loose.
+    pub(super) fn is_loose(&self) -> bool {
+        self.legs.iter().any(|leg| leg.loose)
+    }
+
     /// The ranges of h_j of the legs that are loose, or `None` if none is.
     pub(super) fn heights_of_loose(&self) -> Option<Heights> {
         let height = |j: usize| match self.legs.get(j) {
             Some(leg) if leg.loose => leg.reach.sqrt(),
             _ => ANY,
         };
-        self.legs.iter().any(|leg| leg.loose).then(|| std::array::from_fn(height))
+        self.is_loose().then(|| std::array::from_fn(height))
     }
 
     /// The configurations whose h_j are in these ranges, if there are any.
@@ -89,10 +95,9 @@ impl<'p, 'a, const D: usize> InMode<'p, 'a, D> {
 
     fn expand(&self) -> Determinant {
         let n = self.legs.len();
-        let along = |leg: &Posture, f: &Function| std::array::from_fn(|a| leg.along(f, a));
         let over = self.rows(|leg, i| {
             let f = &leg.over.row[i];
-            Along { value: f.value, gradient: along(leg, f) }
+            Along { value: f.value, gradient: std::array::from_fn(|a| leg.along(f, a)) }
         });
         let at_middle = self.rows(Posture::entry_at_middle);
         let turned = Turned::near(&at_middle);
@@ -106,13 +111,21 @@ impl<'p, 'a, const D: usize> InMode<'p, 'a, D> {
         let by_joint = std::array::from_fn(|j| if j < n { sum(j, &|f| f.gradient[OWN]) } else { ZERO });
         let along = |a: usize| (0..n).fold(ZERO, |all, j| all + sum(j, &|f| f.gradient[a]));
         let total = |a: usize| (0..n).fold(ZERO, |all, j| all + sum(j, &|f| self.legs[j].along(f, a)));
-        let over = Along { value: turned.determinant(&over).value, gradient: std::array::from_fn(total) };
-        // The q's of loose legs as they are, or from their middles.
-        let still = turned.determinant(&self.rows(Posture::entry_at_rest));
-        let loose = self.legs.iter().zip(by_joint).filter(|(leg, _)| leg.loose);
-        let moved = loose.fold(still, |sum, (leg, slope)| sum + slope * (leg.q - leg.middle));
-        let range = self.place.centred(&over, turned.determinant(&at_middle));
-        let range = range.meet(self.place.centred(&over, moved));
+        // By each row too: a wide row then counts once.
+        let narrowest = |rows: &[[Interval; MOST]], cofactors: &[[Interval; MOST]; MOST]| {
+            let by_row = rows.iter().zip(cofactors).map(|(row, cofactors)| dot(row, cofactors));
+            by_row.fold(turned.determinant(rows), Interval::meet)
+        };
+        let value = narrowest(&self.rows(|leg, i| leg.over.row[i].value), &cofactors);
+        let over = Along { value, gradient: std::array::from_fn(total) };
+        let mut range = self.place.centred(&over, narrowest(&at_middle, &middle));
+        if self.is_loose() {
+            // The q's of loose legs counted from their middles: near a serial singularity this is often the narrower.
+            let still = turned.determinant(&self.rows(|leg, i| leg.at_middle.row[i]));
+            let loose = self.legs.iter().zip(by_joint).filter(|(leg, _)| leg.loose);
+            let moved = loose.fold(still, |sum, (leg, slope)| sum + slope * (leg.q - leg.middle));
+            range = range.meet(self.place.centred(&over, moved));
+        }
         Determinant { range, along: std::array::from_fn(along), by_joint, turned }
     }
 
@@ -124,7 +137,7 @@ impl<'p, 'a, const D: usize> InMode<'p, 'a, D> {
 
 /// The part of a range of H where √H is in `height`, if there is one.
 fn part(reach: Interval, height: Interval) -> Option<Interval> {
-    let square = if height == ANY { reach } else { height.square() };
+    let square = height.square();
     let (lo, hi) = (reach.lo.max(square.lo), reach.hi.min(square.hi));
     (lo <= hi).then(|| Interval::new(lo, hi))
 }

@@ -7,13 +7,11 @@ use crate::kinematics::WorkingMode;
 use crate::kinematics::chart::{Chart, Fold};
 use crate::kinematics::leg::equation;
 use crate::num::{Interval, Jet, Scalar};
+use crate::paving::AXES;
 use crate::robot::{Actuator, Robot, Window};
 use arrayvec::ArrayVec;
 use std::cell::OnceCell;
 use std::rc::Rc;
-
-/// Most coordinates that vary.
-pub(super) const AXES: usize = 3;
 
 /// An enclosure of a function over a box, and of its derivatives with respect to the coordinates that vary and, of a function of one leg, to its q.
 pub(super) type Function = Jet<Interval, { AXES + 1 }>;
@@ -48,6 +46,12 @@ impl<'a> Setting<'a> {
         self.chart.leg() == Some(j)
     }
 
+    /// A box cut in two across the coordinate in which it is widest, in proportion to the window.
+    pub(super) fn halves(&self, y: &Coordinates) -> [Coordinates; 2] {
+        let whole = |k: usize| self.window.ranges.get(k).map_or(0.0, |range| range.1 - range.0);
+        halves(y, |k| if whole(k) > 0.0 { (y[k].hi - y[k].lo) / whole(k) } else { 0.0 })
+    }
+
     /// Coordinate k, which has the range x, as a function.
     fn coordinate(&self, x: Interval, k: usize) -> Function {
         match self.axes.iter().position(|&axis| axis == k) {
@@ -55,6 +59,15 @@ impl<'a> Setting<'a> {
             None => Function::fixed(x),
         }
     }
+}
+
+/// Ranges, of which one is cut in two: that with the greatest share.
+pub(super) fn halves(ranges: &[Interval; MOST], share: impl Fn(usize) -> f64) -> [[Interval; MOST]; 2] {
+    let widest = (0..MOST).max_by(|&a, &b| share(a).total_cmp(&share(b))).unwrap_or(0);
+    let (mut low, mut high) = (*ranges, *ranges);
+    low[widest].hi = ranges[widest].mid();
+    high[widest].lo = ranges[widest].mid();
+    [low, high]
 }
 
 /// A box of coordinates; entries beyond the last coordinate are zero.
@@ -79,7 +92,7 @@ pub(super) struct Posture {
     /// Derivatives of q along the axes elsewhere.
     pub rate: [Interval; AXES],
     pub over: LegState<Function>,
-    at_middle: LegState<Interval>,
+    pub at_middle: LegState<Interval>,
     /// Range of s B_jj: positive in the posture.
     pub slope: Interval,
     pub limits: Vec<Interval>,
@@ -89,11 +102,6 @@ impl Posture {
     /// The derivative of a function of the leg along an axis, q being what it is there; at fixed q if the leg is loose.
     pub(super) fn along(&self, f: &Function, axis: usize) -> Interval {
         if self.loose { f.gradient[axis] } else { f.gradient[axis] + f.gradient[OWN] * self.rate[axis] }
-    }
-
-    /// Entry i of the leg's row of A where the axes and q are at their middles.
-    pub(super) fn entry_at_rest(&self, i: usize) -> Interval {
-        self.at_middle.row[i]
     }
 
     /// Entry i of the leg's row of A where the axes are at their middle: for all q, if the leg is loose.

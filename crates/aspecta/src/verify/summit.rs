@@ -4,8 +4,9 @@ use super::body::MOST;
 use super::curvature::has_no_maximum;
 use super::direction::climbable;
 use super::in_mode::{Existence, InMode};
-use super::place::{ANY, AXES, Heights, ONE, OWN, Posture, ZERO};
+use super::place::{ANY, Heights, ONE, OWN, Posture, ZERO, halves};
 use crate::num::{Interval, Scalar};
+use crate::paving::AXES;
 
 /// A vector along the axes.
 type Direction = [Interval; AXES];
@@ -32,14 +33,15 @@ impl<const D: usize> InMode<'_, '_, D> {
             return true;
         }
         let Some(whole) = self.heights_of_loose() else { return false };
-        let mut open = halves(&whole, &whole).to_vec();
+        let cut = |heights: &Heights| {
+            halves(heights, |j| if whole[j] == ANY { 0.0 } else { heights[j].width() / whole[j].width() })
+        };
+        let mut open = cut(&whole).to_vec();
         for _ in 0..PARTS {
             let Some(heights) = open.pop() else { return true };
-            if self
-                .part(&heights)
-                .is_some_and(|part| part.existence() != Existence::Nowhere && !part.climbs(sign))
-            {
-                open.extend(halves(&heights, &whole));
+            let may_be_high = |part: Self| part.existence() != Existence::Nowhere && !part.climbs(sign);
+            if self.part(&heights).is_some_and(may_be_high) {
+                open.extend(cut(&heights));
             }
         }
         false
@@ -61,7 +63,7 @@ impl<const D: usize> InMode<'_, '_, D> {
         };
         let det_alone = active.len() == 1 && constraints[0].value.lo <= least;
         self.choices_of_loose().into_iter().any(climbs)
-            || det_alone && self.legs.iter().all(|leg| !leg.loose) && self.det_has_no_maximum(sign)
+            || det_alone && !self.is_loose() && self.det_has_no_maximum(sign)
     }
 
     fn det_has_no_maximum(&self, sign: f64) -> bool {
@@ -144,16 +146,6 @@ impl<const D: usize> InMode<'_, '_, D> {
         };
         Some(directions(self.place.setting.axes.len(), &normals)?.into_iter().map(velocity).collect())
     }
-}
-
-/// Ranges of h_j, of which one is cut in two: the widest in proportion to the whole.
-fn halves(heights: &Heights, whole: &Heights) -> [Heights; 2] {
-    let share = |j: &usize| if whole[*j] == ANY { 0.0 } else { heights[*j].width() / whole[*j].width() };
-    let widest = (0..whole.len()).max_by(|a, b| share(a).total_cmp(&share(b))).unwrap_or(0);
-    let (mut low, mut high) = (*heights, *heights);
-    low[widest].hi = heights[widest].mid();
-    high[widest].lo = heights[widest].mid();
-    [low, high]
 }
 
 fn joined(along: &Direction, by_joint: &[Interval; MOST]) -> Vector {

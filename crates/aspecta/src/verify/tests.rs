@@ -301,13 +301,24 @@ fn robots_of_the_catalogue() {
     }
 }
 
+fn certified_slice(name: &str, fix: Vec<(usize, f64)>, modes: &[&str], budget: Budget) -> Certificate {
+    let modes = modes.iter().map(|mode| mode.parse().unwrap()).collect();
+    let options = Options { budget, fix, modes, certificate: true };
+    let control = Control { cancelled: &AtomicBool::new(false), progress: &|_| {} };
+    analyze(&catalogue::find(name).unwrap(), &options, &control).unwrap().certificate.unwrap()
+}
+
+/// Where a leg stretches out to its limit of reach and its q counts as a coordinate of its own, det A has to be counted from the middle of q.
+#[test]
+fn leaves_at_a_limit_of_reach_are_proved() {
+    let budget = Budget { depth: Some(10), ..Budget::default() };
+    let verdict = checked(&certified_slice("delta", vec![(2, -900.0)], &["+-+"], budget));
+    assert!(verdict.is_verified(), "{:?}", verdict.faults);
+}
+
 /// A slice of a free body, in its working modes `modes`, verified, with faults planted in it.
 fn check_slice(name: &str, fix: Vec<(usize, f64)>, modes: &[&str]) -> Vec<Claim> {
-    let modes = modes.iter().map(|mode| mode.parse().unwrap()).collect();
-    let options = Options { fix, modes, certificate: true, ..Options::default() };
-    let control = Control { cancelled: &AtomicBool::new(false), progress: &|_| {} };
-    let certificate =
-        analyze(&catalogue::find(name).unwrap(), &options, &control).unwrap().certificate.unwrap();
+    let certificate = certified_slice(name, fix, modes, Budget::default());
     assert!(checked(&certificate).is_verified());
     refuted(&certificate, "claimed", |c| leaf(c, 0, |leaf| leaf.inside & 3 == 2).inside ^= 3);
     refuted(&certificate, "the window is not the one", |c| c.window.cut[0].0 ^= true);
