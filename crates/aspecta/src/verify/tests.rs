@@ -5,7 +5,7 @@ use crate::aspect::{Options, analyze};
 use crate::certificate::{Claim, Entry, Join, Leaf};
 use crate::kinematics::chart::{Chain, Chart};
 use crate::num::Scalar;
-use crate::paving::Budget;
+use crate::paving::{Budget, ClassSet};
 use crate::robot::{Actuator, Leg as RobotLeg, Limit, Platform, Robot, catalogue};
 use proptest::prelude::*;
 use std::sync::LazyLock;
@@ -65,6 +65,15 @@ fn leaf(certificate: &mut Certificate, sheet: usize, fits: impl Fn(&Leaf) -> boo
     leaves.into_iter().find(|leaf| fits(leaf)).unwrap()
 }
 
+/// Claims that no inside leaf of a sheet holds a summit of these classes.
+fn deny_summits(certificate: &mut Certificate, sheet: usize, classes: ClassSet) {
+    for entry in &mut certificate.sheets[sheet].tree.0 {
+        if let Entry::Leaf(leaf) = entry {
+            leaf.summitless |= leaf.inside & classes;
+        }
+    }
+}
+
 /// The middles of the leaves of a sheet that are inside a class.
 fn inside(certificate: &Certificate, sheet: usize, class: usize) -> Vec<Vec<f64>> {
     let sheet = &certificate.sheets[sheet];
@@ -116,10 +125,7 @@ fn chains_are_checked() {
     refuted(&SPHERE, "claimed", |c| c.sheets[1].chart = Chart::Chain(Chain { leg: 1 }));
     refuted(&SPHERE, "claimed covered, but", |c| c.sheets.truncate(1));
     refuted(&SPHERE, "claimed summitless, but P may have a maximum here", |c| {
-        let entries = c.sheets[1].tree.0.iter_mut();
-        let leaves =
-            entries.filter_map(|entry| if let Entry::Leaf(leaf) = entry { Some(leaf) } else { None });
-        leaves.for_each(|leaf| leaf.summitless |= leaf.inside);
+        deny_summits(c, 1, !0);
     });
     refuted(&SPHERE, "at least 3 aspects are claimed, 2 are proved", |c| c.claims[0].low = 3);
     refuted(&SPHERE, "at most 1 aspects are claimed, but 2 are not excluded", |c| c.claims[0].high = Some(1));
@@ -203,11 +209,7 @@ fn a_subtree_that_is_cut_is_missed() {
 #[test]
 fn a_summit_cannot_be_argued_away() {
     refuted(&FIVE_BAR, "claimed summitless, but P may have a maximum here", |c| {
-        for entry in &mut c.sheets[0].tree.0 {
-            if let Entry::Leaf(leaf) = entry {
-                leaf.summitless |= leaf.inside & 1;
-            }
-        }
+        deny_summits(c, 0, 1);
         c.claims[0] = Claim { low: 0, high: Some(0) };
     });
 }
@@ -317,12 +319,12 @@ fn leaves_at_a_limit_of_reach_are_proved() {
 }
 
 /// A slice of a free body, in its working modes `modes`, verified, with faults planted in it.
-fn check_slice(name: &str, fix: Vec<(usize, f64)>, modes: &[&str]) -> Vec<Claim> {
+fn check_slice(name: &str, fix: Vec<(usize, f64)>, modes: &[&str]) -> Certificate {
     let certificate = certified_slice(name, fix, modes, Budget::default());
     assert!(checked(&certificate).is_verified());
     refuted(&certificate, "claimed", |c| leaf(c, 0, |leaf| leaf.inside & 3 == 2).inside ^= 3);
     refuted(&certificate, "the window is not the one", |c| c.window.cut[0].0 ^= true);
-    certificate.claims
+    certificate
 }
 
 /// Six rows in A: struts and two coordinates that vary, cranks and one.
@@ -330,10 +332,11 @@ fn check_slice(name: &str, fix: Vec<(usize, f64)>, modes: &[&str]) -> Vec<Claim>
 fn slices_of_free_bodies_are_checked() {
     let exact = |n: usize| Claim { low: n, high: Some(n) };
     let struts = check_slice("gough-stewart", vec![(2, 0.8), (3, 0.1), (4, 0.0), (5, 0.0)], &["------"]);
-    assert_eq!(struts, [1, 1].map(exact));
+    assert_eq!(struts.claims, [1, 1].map(exact));
     let held = vec![(1, 20.0), (2, -600.0), (3, 0.0), (4, 0.1), (5, 0.0)];
     let cranks = check_slice("hexa", held, &["-+-+-+", "+-++++"]);
-    assert_eq!(cranks, [1, 2, 1, 1].map(exact));
+    assert_eq!(cranks.claims, [1, 2, 1, 1].map(exact));
+    refuted(&cranks, "claimed summitless, but P may have a maximum here", |c| deny_summits(c, 0, 1));
 }
 
 #[test]
