@@ -44,7 +44,7 @@ pub(super) fn sign_of(class: usize) -> f64 {
     if class.is_multiple_of(2) { 1.0 } else { -1.0 }
 }
 
-/// Proves what is claimed of a leaf; returns how many boxes it was cut into.
+/// Proves what is claimed of a leaf, which `charts` may cover; returns how many boxes it was cut into.
 pub(super) fn prove<const D: usize>(
     setting: &Setting<'_>,
     modes: &[WorkingMode],

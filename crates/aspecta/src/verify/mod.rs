@@ -10,7 +10,8 @@
 //! succeed, then for each class `low` ≤ number of components of S ≤ `high`.
 //!
 //! - *Inside* leaves lie in S, *outside* leaves do not meet it, a *covered* leaf has all its configurations in the chart of one
-//!   fold (or of several), whose charts are disjoint, or in that of a chain, which holds all. The rest is undecided.
+//!   fold (or of several), whose charts are disjoint, or in that of a chain, which holds all: in charts of later sheets than its own. The rest is
+//!   undecided.
 //! - **Low.** Of a leaf of sheet 0 take the configurations that are not in the interior of a fold's chart. With the leaves of the
 //!   folds these closed sets cover S, so each component of S lies in one component of the graph G⁺ that joins any two which may share a
 //!   point. Leaves of one sheet do if their boxes touch (modulo full turns; at pitch ±π/2 always, roll and yaw being one); a
@@ -155,6 +156,8 @@ fn check_leaves<const D: usize>(
     let total = verdict.leaves as u64;
     let (done, faults, boxes) = (AtomicU64::new(0), AtomicUsize::new(0), AtomicU64::new(0));
     for (s, sheet) in sheets.iter().enumerate() {
+        // A sheet that could cover itself, or two each other, would leave nothing to count.
+        let later = &charts[s..];
         let check = |leaf: usize| -> Option<Fault> {
             if control.is_cancelled() || faults.load(Ordering::Relaxed) >= ENOUGH {
                 return None;
@@ -164,7 +167,7 @@ fn check_leaves<const D: usize>(
                 (control.progress)(Progress { stage: "proving boxes", done: so_far, total });
             }
             let (claims, y) = (sheet.cells.leaves[leaf].claims, sheet.cells.of(leaf));
-            match claims::prove::<D>(&sheet.setting, &certificate.modes, charts, y, claims) {
+            match claims::prove::<D>(&sheet.setting, &certificate.modes, later, y, claims) {
                 Ok(spent) => {
                     boxes.fetch_add(spent as u64, Ordering::Relaxed);
                     None
