@@ -28,6 +28,7 @@ pub(super) fn up(x: f64) -> f64 {
 /// An operation that has no finite answer (a division by an interval around zero, an overflow)
 /// returns [−∞, +∞]: *undecided*, never a wrong bound.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Interval {
     /// Lower bound.
     pub lo: f64,

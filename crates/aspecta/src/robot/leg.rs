@@ -12,6 +12,7 @@ pub type Frame = [[Interval; 3]; 3];
 /// Lengths are in the robot's unit. Every constant is an interval that holds the decimal number of
 /// the robot file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Leg {
     /// A_i in base coordinates (the plane uses the first two). The centre of the sphere, zero, for
     /// spherical legs.
@@ -28,7 +29,7 @@ pub struct Leg {
 
 /// The driven joint of a leg and the lengths behind it. u, v, w are the leg's frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "kind", rename_all = "kebab-case")]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Actuator {
     /// RRR, RSS, RUS: a crank of length L turns by q (rad) from u towards v about w, a rod of length M
     /// follows. f = ‖C − A − L(cos q u + sin q v)‖² − M².
@@ -118,7 +119,7 @@ impl Actuator {
 /// Angular ranges are kept as a middle direction and a half-width in (0, π): inside is where the
 /// cosine of the difference exceeds that of the half-width, one smooth condition for any range.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "joint", rename_all = "kebab-case")]
+#[serde(tag = "joint", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Limit {
     /// A driven angle (revolute and spherical legs).
     ActuatorAngle {

@@ -23,6 +23,7 @@ use serde::{Deserialize, Serialize};
 
 /// A robot, ready to compute with. Made from a robot file or by [`Robot::new`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Robot {
     /// Short name, as in the catalogue.
     pub name: String,

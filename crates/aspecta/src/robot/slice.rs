@@ -113,11 +113,12 @@ impl Robot {
         Ok(window)
     }
 
-    /// Beyond pitch = ±π/2 poses go on at half a turn of roll and yaw. Where one of these is held that is off the slice, which ends there.
+    /// Beyond pitch = ±π/2 poses go on at half a turn of roll and yaw. Where one of these is held that is off the slice, and where one is cut it may be
+    /// out of the window: which ends there.
     fn end_pitch(&self, window: &mut Window) {
         let Some([roll, pitch, yaw]) = self.platform.turns() else { return };
         let is_held = |k: usize| window.ranges[k].0 == window.ranges[k].1;
-        if (is_held(roll) || is_held(yaw)) && !is_held(pitch) {
+        if !(window.glued[roll] && window.glued[yaw]) && !is_held(pitch) {
             window.cut[pitch] = (true, true);
         }
     }

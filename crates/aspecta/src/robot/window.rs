@@ -8,6 +8,7 @@ use std::f64::consts::TAU;
 /// A box of poses that holds every pose the robot can take, as proved from its link lengths, cut by
 /// the window the user may have set.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Window {
     /// Range of each coordinate; (−π, π) rounded outward for a full turn, (v, v) for a coordinate held at v.
     pub ranges: Vec<(f64, f64)>,
@@ -57,7 +58,7 @@ impl Robot {
         // A range of a full turn is no limit.
         let asked = self.window[k].filter(|r| !(c.periodic && r.1 - r.0 >= TAU - 1e-12));
         let range = match asked {
-            Some((lo, hi)) if !c.angle => (natural.0.max(lo), natural.1.min(hi)),
+            Some((lo, hi)) if !c.periodic => (natural.0.max(lo), natural.1.min(hi)),
             Some(range) => range,
             None => natural,
         };
