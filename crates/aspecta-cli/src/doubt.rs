@@ -63,8 +63,8 @@ pub fn reasons(analysis: &Analysis) -> Vec<String> {
     let folds = (!analysis.uncharted_folds.is_empty()).then(|| {
         let legs: Vec<String> = analysis.uncharted_folds.iter().map(usize::to_string).collect();
         format!(
-            "Legs can fold whose links are equal, or complete each other to half a turn: the platform's joint comes onto the motor's axis, where \
-             the motor is free. Leg 1 may, but boxes round the orientations in which leg {} does are never decided.",
+            "Two legs can fold at once whose links are equal, or complete each other to half a turn: the platform's joint comes onto the motor's axis, where \
+             the motor is free. Leg 1 may fold, but boxes round the orientations in which leg {} does are never decided.",
             legs.join(" or ")
         )
     });

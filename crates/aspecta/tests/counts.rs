@@ -118,12 +118,21 @@ fn the_certificate_of_a_delta_is_verified() {
 
 // A platform that turns about a point: all orientations, in the joint angles of a leg.
 
-/// The generic spherical robot with the ranges of its motors, its legs from `first` on.
-fn sphere(first: usize) -> Robot {
-    let text = include_str!("fixtures/limited_sphere.toml");
-    let mut robot = Robot::from_toml(text, "limited_sphere.toml").unwrap();
+/// A robot with its legs from `first` on.
+fn from_leg(first: usize, text: &str) -> Robot {
+    let mut robot = Robot::from_toml(text, "a fixture").unwrap();
     robot.legs.rotate_left(first);
     robot
+}
+
+/// The generic spherical robot with the ranges of its motors.
+fn sphere(first: usize) -> Robot {
+    from_leg(first, include_str!("fixtures/limited_sphere.toml"))
+}
+
+/// A spherical robot whose last leg can fold.
+fn folding_sphere(first: usize) -> Robot {
+    from_leg(first, include_str!("fixtures/folding_sphere.toml"))
 }
 
 /// The numbers of the aspects of some modes, det A > 0 and < 0.
@@ -142,6 +151,13 @@ fn a_spherical_robot() {
     // The same with the joint angles of other legs. det A keeps its sign as rows are moved round.
     assert_eq!(in_modes(&sphere(1), &["+++", "---", "-++", "-+-"]), [1, 1, 2, 2, 1, 1, 1, 1]);
     assert_eq!(in_modes(&sphere(2), &["+++", "---"]), [1, 1, 2, 2]);
+}
+
+/// A fold is opened up by the leg's own joint angles: by those of all configurations, if it is the first leg, or by a chart of its own.
+#[test]
+fn a_spherical_robot_whose_leg_folds() {
+    assert_eq!(in_modes(&folding_sphere(0), &["-++"]), [1, 1]);
+    assert_eq!(in_modes(&folding_sphere(2), &["+-+"]), [1, 1]);
 }
 
 #[test]

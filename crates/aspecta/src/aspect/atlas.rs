@@ -1,6 +1,7 @@
 //! The charts of a robot, paved.
 
 use super::scale::Scale;
+use super::seams::base_of;
 use super::summit::summitless;
 use crate::kinematics::WorkingMode;
 use crate::kinematics::chart::{Chart, charts};
@@ -62,7 +63,8 @@ impl Limits<'_> {
 }
 
 /// The pavings of all charts. Sheet 0 is in pose coordinates; sheet i + 1 is that of chart i and replaces the boxes of
-/// sheet 0 that it covers.
+/// sheet 0 that it covers. If the first chart holds all configurations it replaces them all, and the others replace what they cover of it: it is the
+/// base.
 pub(super) struct Atlas<'a> {
     pub robot: &'a Robot,
     /// Those of the sheets from 1 on.
@@ -110,7 +112,7 @@ impl<'a> Atlas<'a> {
         self.note(leaf, |node| node.summitless |= classes);
     }
 
-    /// Remembers that charts hold a box of sheet 0, and all that it was split into.
+    /// Remembers that charts hold a box of the base, and all that it was split into.
     pub(super) fn cover(&mut self, leaf: Leaf) {
         self.note(leaf, |node| node.covered = true);
     }
@@ -124,13 +126,17 @@ impl<'a> Atlas<'a> {
         }
     }
 
-    /// Whether one of the charts surely holds a box of sheet 0 on which all legs close; it is cut up where that helps.
-    pub(super) fn is_within_a_chart(&self, leaf: Leaf) -> bool {
-        leaf.0 == 0
-            && for_platform!(
-                self.robot.platform,
-                within_a_chart(self.robot, &self.charts, &self.sheets[0], leaf.1)
-            )
+    /// The sheet that holds all configurations, and the charts that replace parts of it.
+    fn base(&self) -> (usize, &[Chart]) {
+        let base = base_of(&self.sheets);
+        (base, &self.charts[base..])
+    }
+
+    /// Whether one of the charts surely holds a box of the base on which all legs close; it is cut up where that helps.
+    pub(super) fn is_within_a_chart(&self, (sheet, node): Leaf) -> bool {
+        let (base, charts) = self.base();
+        let paving = &self.sheets[base];
+        sheet == base && for_platform!(self.robot.platform, within_a_chart(self.robot, charts, paving, node))
     }
 
     /// The children of boxes in which one of some classes is undecided.
@@ -143,14 +149,16 @@ impl<'a> Atlas<'a> {
         boxes.iter().flat_map(children).filter(undecided).collect()
     }
 
-    /// Whether the box belongs to a sheet from 1 on, or its centre surely lies in no other chart: a set of configurations that holds it
+    /// Whether the box belongs to a later sheet than the base, or its centre surely lies in no other chart: a set of configurations that holds it
     /// has a point that no other boxes than those of its component of G⁺ can cover.
     pub(super) fn is_anchor(&self, (sheet, node): Leaf) -> bool {
-        if sheet > 0 || self.charts.is_empty() {
+        let (base, charts) = self.base();
+        if sheet > base || charts.is_empty() {
             return true;
         }
-        let pose: Vec<Interval> = self.sheets[0].centre(node).into_iter().map(Interval::point).collect();
-        for_platform!(self.robot.platform, outside_charts(self.robot, &self.charts, &pose))
+        let paving = &self.sheets[base];
+        let centre: Vec<Interval> = paving.centre(node).into_iter().map(Interval::point).collect();
+        for_platform!(self.robot.platform, outside_charts(self.robot, charts, &paving.chart, &centre))
     }
 
     /// Boxes classified so far.
@@ -269,10 +277,11 @@ impl<'a> Atlas<'a> {
         let mut children = Vec::new();
         let mut all = true;
         let boxes = self.boxes() + ((leaves.len() as u64) << self.sheets[0].axes.len());
+        let base = base_of(&self.sheets);
         for (s, sheet) in self.sheets.iter_mut().enumerate() {
             let here: Vec<u32> = leaves.iter().filter(|l| l.0 == s).map(|l| l.1).collect();
             let first = sheet.nodes.len() as u32;
-            let charts = if s == 0 { self.charts.as_slice() } else { &[] };
+            let charts = if s == base { &self.charts[base..] } else { &[] };
             all &= sheet.split(self.robot, charts, &here, &|| limits.is_over(boxes));
             children.extend((first..sheet.nodes.len() as u32).map(|n| (s, n)));
         }
@@ -294,8 +303,8 @@ fn within_a_chart<const D: usize, const N: usize>(
     charts.iter().any(|chart| {
         let mut open = vec![(cell, HALVINGS)];
         while let Some((cell, halvings)) = open.pop() {
-            let (_, legs) = Chart::Pose.at::<Interval, D, N>(robot, &cell, |k| cell[k].sin_cos());
-            let margins = chart.cover(&legs);
+            let (_, legs) = paving.chart.at::<Interval, D, N>(robot, &cell, |k| cell[k].sin_cos());
+            let margins = chart.cover(robot, &legs);
             if margins.iter().all(|margin| margin.is_positive()) {
                 continue;
             }
@@ -312,13 +321,14 @@ fn within_a_chart<const D: usize, const N: usize>(
     })
 }
 
-/// Whether a pose surely lies in none of the charts.
+/// Whether a point of the base, whose coordinates are those of `base`, surely lies in none of the charts.
 fn outside_charts<const D: usize, const N: usize>(
     robot: &Robot,
     charts: &[Chart],
-    pose: &[Interval],
+    base: &Chart,
+    point: &[Interval],
 ) -> bool {
-    let x: [Interval; N] = std::array::from_fn(|k| pose[k]);
-    let (_, legs) = Chart::Pose.at::<Interval, D, N>(robot, &x, |k| x[k].sin_cos());
-    charts.iter().all(|chart| chart.cover(&legs).iter().any(|margin| margin.is_negative()))
+    let y: [Interval; N] = std::array::from_fn(|k| point[k]);
+    let (_, legs) = base.at::<Interval, D, N>(robot, &y, |k| y[k].sin_cos());
+    charts.iter().all(|chart| chart.cover(robot, &legs).iter().any(|margin| margin.is_negative()))
 }

@@ -43,8 +43,8 @@ pub struct Analysis {
     pub architecturally_singular: bool,
     /// Surfaces on which det A vanishes to higher order: a reason for doubts that no refinement removes.
     pub parallel_rods: Vec<ParallelRods>,
-    /// Legs (from 1) of a platform that turns about a point whose joint can come onto the motor's axis, where the motor is free: round these orientations the
-    /// bounds may stay apart.
+    /// Legs (from 1) of a platform that turns about a point whose joint can come onto the motor's axis, where the motor is free, if two legs' can at once: round
+    /// these orientations the bounds may stay apart.
     pub uncharted_folds: Vec<usize>,
     /// Definition 5 applied to this robot: what figures 6 and 7 show. Two entries, det A > 0 and < 0.
     pub parallel_aspects: Vec<EarlierAspects>,

@@ -3,53 +3,82 @@
 use super::atlas::Leaf;
 use crate::kinematics::chart::Chart;
 use crate::kinematics::for_platform;
-use crate::num::Interval;
+use crate::num::{Interval, Scalar};
 use crate::paving::{Mark, Node, Paving};
 use crate::robot::Robot;
+use arrayvec::ArrayVec;
 
-/// Pairs (box of sheet 0, box of another sheet) that may share a configuration in which neither box is replaced by the other.
+/// The sheet whose boxes, and those that replace some of them, hold all configurations: that of poses, or of a chart that holds all.
+pub(super) fn base_of(sheets: &[Paving]) -> usize {
+    usize::from(sheets.get(1).is_some_and(|sheet| sheet.chart.is_whole()))
+}
+
+/// Pairs (box of the base, box of a later sheet) that may share a configuration in which neither box is replaced by the other.
 ///
-/// The boxes of a fold's sheet and those boxes of sheet 0 that it does not cover, cut to the poses the chart does not hold, cover
+/// The boxes of a fold's sheet and those boxes of the base that it does not cover, cut to the configurations the chart does not hold, cover
 /// all configurations. The two kinds meet only in the chart's outer faces, so every box at such a face is joined with all
-/// that its image may meet. A chart of all configurations has no such faces.
+/// that its image may meet.
 pub(super) fn outer(
     robot: &Robot,
     sheets: &[Paving],
     sight: &impl Fn(&Node) -> Mark,
     join: &mut impl FnMut(Leaf, Leaf),
 ) {
-    for (s, sheet) in sheets.iter().enumerate().skip(1).filter(|(_, sheet)| !sheet.chart.is_whole()) {
+    let base = base_of(sheets);
+    for (k, sheet) in sheets.iter().skip(base + 1).enumerate() {
+        let s = base + 1 + k;
+        // An image is a box, but the face is thin and slanted: most boxes that meet the former are away from the chart.
+        let at_edge = |node: &Node| if node.partly >> k & 1 == 0 { Mark::Outside } else { sight(node) };
         sheet.boxes_of(sight, &mut |at| {
             for face in outer_faces(robot, sheet, at) {
-                sheets[0].meeting(sight, &image(robot, sheet, &face), &mut |other| join((0, other), (s, at)));
+                for image in images(robot, &sheets[base], sheet, &face) {
+                    sheets[base].meeting(&at_edge, &image, &mut |other| join((base, other), (s, at)));
+                }
             }
         });
     }
 }
 
-/// Pairs (inside box of sheet 0, inside box of another sheet) that share a configuration, the centre of the latter having a pose that seems to lie in
-/// the former; the third argument of `join` proves that it does.
+/// Pairs (inside box of the sheet beneath, inside box of a sheet) that share a configuration, the centre of the latter seeming to lie in
+/// the former; the third argument of `join` proves that it does. Beneath the base are the poses, beneath all others the base.
 pub(super) fn inner(
     robot: &Robot,
     sheets: &[Paving],
     sight: &impl Fn(&Node) -> Mark,
     join: &mut impl FnMut(Leaf, Leaf, &dyn Fn() -> bool),
 ) {
+    let base = base_of(sheets);
     for (s, sheet) in sheets.iter().enumerate().skip(1) {
+        let beneath = if s > base { base } else { 0 };
+        let under = &sheets[beneath];
         sheet.boxes_of(sight, &mut |at| {
             if sight(&sheet.nodes[at as usize]) != Mark::Inside {
                 return;
             }
-            let Some((other, true)) = sheets[0].find(sight, &centre(robot, sheets, (s, at))) else { return };
-            if sight(&sheets[0].nodes[other as usize]) == Mark::Inside {
-                let surely = || {
-                    let centre: Vec<Interval> = sheet.centre(at).into_iter().map(Interval::point).collect();
-                    sheets[0].holds(other, &image(robot, sheet, &centre))
+            let centre: Vec<Interval> = sheet.centre(at).into_iter().map(Interval::point).collect();
+            for (k, point) in middles(robot, sheets, beneath, (s, at)).iter().enumerate() {
+                // In the other posture of the base's leg it is another configuration, of another mode.
+                let found = under.find(sight, point).filter(|(_, surely)| *surely).map(|(other, _)| other);
+                let Some(other) = found.filter(|&n| sight(&under.nodes[n as usize]) == Mark::Inside) else {
+                    continue;
                 };
-                join((0, other), (s, at), &surely);
+                join((beneath, other), (s, at), &|| {
+                    under.holds(other, &images(robot, under, sheet, &centre)[k])
+                });
             }
         });
     }
+}
+
+/// What the centre of a box is in the chart of the sheet beneath, numerically: in each posture of its leg.
+fn middles(robot: &Robot, sheets: &[Paving], beneath: usize, leaf: Leaf) -> ArrayVec<Vec<f64>, 2> {
+    if sheets[beneath].chart == Chart::Pose {
+        return std::iter::once(centre(robot, sheets, leaf)).collect();
+    }
+    let sheet = &sheets[leaf.0];
+    let centre: Vec<Interval> = sheet.centre(leaf.1).into_iter().map(Interval::point).collect();
+    let images = images(robot, &sheets[beneath], sheet, &centre);
+    images.into_iter().map(|image| image.iter().map(|x| x.mid()).collect()).collect()
 }
 
 /// The outer faces of a fold's chart that a box lies at: its coordinates, one of them at its end.
@@ -58,7 +87,8 @@ fn outer_faces(robot: &Robot, sheet: &Paving, at: u32) -> Vec<Vec<Interval>> {
     let last = (1u32 << node.depth) - 1;
     let coordinates = sheet.extent(at);
     let mut faces = Vec::new();
-    for (a, &k) in sheet.axes.iter().enumerate().filter(|(_, k)| (1..robot.platform.space()).contains(*k)) {
+    let bounded = sheet.chart.bounded(robot);
+    for (a, &k) in sheet.axes.iter().enumerate().filter(|(_, k)| bounded.contains(*k)) {
         let Interval { lo, hi } = coordinates[k];
         for (is_outer, end) in [(node.corner[a] == 0, lo), (node.corner[a] == last, hi)] {
             if is_outer {
@@ -78,15 +108,29 @@ pub(super) fn centre(robot: &Robot, sheets: &[Paving], (s, at): Leaf) -> Vec<f64
 
 /// Poses that hold the configurations of a box.
 pub(super) fn poses(robot: &Robot, sheets: &[Paving], (s, at): Leaf) -> Vec<Interval> {
-    image(robot, &sheets[s], &sheets[s].extent(at))
+    for_platform!(robot.platform, poses_in(robot, &sheets[s].chart, &sheets[s].extent(at)))
 }
 
-/// Poses that hold the configurations with the given coordinates.
-fn image(robot: &Robot, sheet: &Paving, y: &[Interval]) -> Vec<Interval> {
-    for_platform!(robot.platform, image_in(robot, &sheet.chart, y))
+/// Coordinates of the sheet `under` that hold the configurations with the coordinates `y` of another: if its chart is a chain, in each posture of its leg.
+fn images(robot: &Robot, under: &Paving, sheet: &Paving, y: &[Interval]) -> ArrayVec<Vec<Interval>, 2> {
+    for_platform!(robot.platform, images_in(robot, &under.chart, &sheet.chart, y))
 }
 
-fn image_in<const D: usize, const N: usize>(robot: &Robot, chart: &Chart, y: &[Interval]) -> Vec<Interval> {
+fn images_in<const D: usize, const N: usize>(
+    robot: &Robot,
+    under: &Chart,
+    chart: &Chart,
+    y: &[Interval],
+) -> ArrayVec<Vec<Interval>, 2> {
+    let Chart::Chain(chain) = under else {
+        return std::iter::once(poses_in::<D, N>(robot, chart, y)).collect();
+    };
+    let y: [Interval; N] = std::array::from_fn(|k| y[k]);
+    let (placement, _) = chart.at::<Interval, D, N>(robot, &y, |k| y[k].sin_cos());
+    chain.coordinates::<D, N>(robot, &placement).map(|image| image.to_vec()).into()
+}
+
+fn poses_in<const D: usize, const N: usize>(robot: &Robot, chart: &Chart, y: &[Interval]) -> Vec<Interval> {
     chart.pose::<D, N>(robot, &std::array::from_fn(|k| y[k])).to_vec()
 }
 

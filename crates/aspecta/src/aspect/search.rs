@@ -30,11 +30,11 @@ impl<'a> Search<'a> {
         control: &Control<'_>,
     ) -> Self {
         let start = Instant::now();
-        let limits = Limits {
+        let mut limits = Limits {
             depth: budget.finest(window).unwrap_or(DEEPEST),
             boxes: budget.boxes.unwrap_or(MAX_BOXES).min(MAX_BOXES),
             time: budget.seconds.map(|seconds| (start, seconds)),
-            rest: 2.0 * modes.len() as f64 * PER_BOX / rayon::current_num_threads() as f64,
+            rest: AFTER * modes.len() as f64 * PER_BOX / rayon::current_num_threads() as f64,
             late: AtomicBool::new(false),
             control,
         };
@@ -43,7 +43,9 @@ impl<'a> Search<'a> {
         let mut search = Self { atlas, counted: Vec::new(), stop: paved };
         let leaves = search.atlas.undecided_leaves();
         let mut afforded = search.atlas.uncover(leaves, &limits);
+        let counting = Instant::now();
         search.count_all(modes, &limits);
+        limits.rest = limits.rest.max(AFTER * counting.elapsed().as_secs_f64() / search.atlas.boxes() as f64);
         afforded &= search.join(&limits);
         let even = search.atlas.even_out(budget.even(window), &limits);
         afforded &= even.reached;
@@ -147,8 +149,11 @@ impl<'a> Search<'a> {
 /// How many levels further ways are followed at once.
 const AHEAD: usize = 2;
 
-/// About how long, in seconds, a thread takes to count and to report one class, for each box of the atlas. Time budgets are kept as well as
-/// this is guessed; nothing else depends on it.
+/// How long the last count and the report take, in counts.
+const AFTER: f64 = 2.0;
+
+/// About how long, in seconds, a thread takes to count and to report one class, for each box of the atlas. A first guess: time budgets are
+/// kept as well as this is; nothing else depends on it.
 const PER_BOX: f64 = 0.5e-6;
 
 /// The depth at which a search ends if the budget names none: boxes are then some 10⁻⁸ of the window wide, still a million times

@@ -162,7 +162,7 @@ impl Certificate {
             match &sheet.chart {
                 Chart::Pose => holds(k == 0, "there is more than one sheet in pose coordinates")?,
                 Chart::Fold(fold) => check_fold(&self.robot, fold)?,
-                Chart::Chain(chain) => check_chain(&self.robot, &self.window, chain)?,
+                Chart::Chain(chain) => check_chain(&self.robot, &self.window, chain, k)?,
             }
             sheet.tree.check(axes, classes).map_err(|error| Unsound::Tree { sheet: k, error })?;
         }
@@ -186,7 +186,7 @@ fn check_fold(robot: &Robot, fold: &Fold) -> Result<(), Unsound> {
     holds(sane(&fold.crank) && sane(&fold.rod), "a length of a fold is not finite")
 }
 
-fn check_chain(robot: &Robot, window: &Window, chain: &Chain) -> Result<(), Unsound> {
+fn check_chain(robot: &Robot, window: &Window, chain: &Chain, sheet: usize) -> Result<(), Unsound> {
     let leg = robot.legs.get(chain.leg).ok_or(Unsound::Index { what: "leg of a chain", index: chain.leg })?;
     holds(
         robot.platform == Platform::TurningBody && matches!(leg.actuator, Actuator::Spherical { .. }),
@@ -196,7 +196,13 @@ fn check_chain(robot: &Robot, window: &Window, chain: &Chain) -> Result<(), Unso
     holds(
         whole && window.held().next().is_none(),
         "a chain holds all orientations, but the window cuts or holds some",
-    )
+    )?;
+    holds(
+        chain.bend.is_none() == (sheet == 1),
+        "sheet 1 is that of a chain which holds all configurations, and later ones are those of bends",
+    )?;
+    let width = chain.bend.as_ref().map_or(0.5, |bend| bend.half_width);
+    holds(width > 0.0 && width < 1.0, "the half-width of a bend is not in (0, 1)")
 }
 
 fn sane(x: &Interval) -> bool {
@@ -230,6 +236,18 @@ fn fault_of_leg(leg: &Leg, platform: Platform) -> Option<&'static str> {
         .all(|i| (0..3).all(|k| is_about(dot(&leg.frame[i], &leg.frame[k]), f64::from(u8::from(i == k)))))
     {
         return Some("its frame is not orthonormal");
+    }
+    let [x, y, z] = &leg.frame;
+    let along = |k: usize| x[(k + 1) % 3] * y[(k + 2) % 3] - x[(k + 2) % 3] * y[(k + 1) % 3];
+    if !(0..3).all(|k| is_about(along(k) - z[k], 0.0)) {
+        return Some("its frame is not right-handed: its angles would turn the other way");
+    }
+    let out_of_plane = [x[2], y[2], z[0], z[1]];
+    if platform.space() == 2 && !out_of_plane.iter().all(|entry| is_about(*entry, 0.0)) {
+        return Some("its frame does not lie in the plane");
+    }
+    if platform == Platform::TurningBody && leg.anchor.iter().any(|a| *a != Interval::point(0.0)) {
+        return Some("its anchor is not the centre about which the platform turns");
     }
     if platform == Platform::TurningBody && !is_about(dot(&leg.attachment, &leg.attachment), 1.0) {
         return Some("its platform joint is not a unit vector");

@@ -39,11 +39,11 @@ pub struct Certificate {
     pub scale: Scale,
     /// The bounds claimed, one entry per class.
     pub claims: Vec<Claim>,
-    /// Sheet 0 is in pose coordinates; the others are charts that replace the boxes of sheet 0 that are covered.
+    /// Sheet 0 is in pose coordinates; the others are charts that replace the boxes of earlier sheets that are covered.
     pub sheets: Vec<Sheet>,
     /// Paths that join inside boxes of a sheet.
     pub joins: Vec<Join>,
-    /// Points that inside boxes of other sheets share with inside boxes of sheet 0.
+    /// Points that inside boxes of sheets share with inside boxes of the sheets beneath them.
     pub seams: Vec<Seam>,
 }
 
@@ -79,7 +79,8 @@ pub struct Join {
     pub path: Vec<Vec<f64>>,
 }
 
-/// A configuration that lies in an inside box of a sheet from 1 on and, as a pose, in one of sheet 0.
+/// A configuration that lies in an inside box of a sheet from 1 on and in one of the sheet beneath: of sheet 0, as a pose, or of sheet 1 if that is
+/// a chain and the former a bend of another leg.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Seam {

@@ -6,11 +6,13 @@
 //! depends on the direction from which the point is approached. The leg's own coordinates open this up.
 //!
 //! Neither is it enough to turn about a point: roll and yaw are one at the poles of the pitch. There the joint angles of one leg,
-//! from the base to the platform, are coordinates of all configurations.
+//! from the base to the platform, are coordinates of all configurations; and where another leg folds, its own are.
 
+mod bend;
 mod chain;
 
-pub use chain::Chain;
+pub use bend::uncharted_folds;
+pub use chain::{Bend, Chain};
 
 use super::leg::{Closure, sum_of_squares};
 use super::modal::{LegClosure, closures};
@@ -28,7 +30,7 @@ pub enum Chart {
     Pose,
     /// One leg's own coordinates instead of the platform's translations.
     Fold(Fold),
-    /// The joint angles of one spherical leg.
+    /// The joint angles of one spherical leg, everywhere or near its fold.
     Chain(Chain),
 }
 
@@ -46,6 +48,7 @@ pub enum Chart {
 /// The chart covers, in W, exactly the poses with ‖d‖² < L² + M², H_j ≤ (2LM p₀)² and, in space,
 /// γ/M in the range of w ([`Fold::cover`]): M u_radial = (‖d‖² − L² − M²)/2L, H_j = (2LM p)² and γ = M w.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Fold {
     /// Leg j, from 0.
     pub leg: usize,
@@ -101,17 +104,30 @@ impl Chart {
 
     /// Whether it holds all configurations.
     pub fn is_whole(&self) -> bool {
-        matches!(self, Self::Pose | Self::Chain(_))
+        matches!(self, Self::Pose | Self::Chain(Chain { bend: None, .. }))
     }
 
     /// Functions of the legs at a pose: where all are positive and the legs close, the chart covers the pose.
     pub fn cover<T: Scalar, const D: usize, const N: usize>(
         &self,
+        robot: &Robot,
         legs: &[LegClosure<T, D>; N],
     ) -> ArrayVec<T, 4> {
         match self {
             Self::Fold(fold) => fold.cover(&legs[fold.leg]),
+            Self::Chain(Chain { leg, bend: Some(bend) }) => {
+                bend.cover(&robot.legs[*leg].actuator, &legs[*leg].span).into_iter().collect()
+            }
             Self::Pose | Self::Chain(_) => ArrayVec::new(),
+        }
+    }
+
+    /// The coordinates at whose ends the chart ends, other charts going on there.
+    pub fn bounded(&self, robot: &Robot) -> std::ops::Range<usize> {
+        match self {
+            Self::Fold(_) => 1..robot.platform.space(),
+            Self::Chain(Chain { bend: Some(_), .. }) => 1..2,
+            Self::Pose | Self::Chain(_) => 0..0,
         }
     }
 
@@ -140,7 +156,7 @@ impl Chart {
         let fold = match self {
             Self::Pose => return poses.clone(),
             Self::Fold(fold) => fold,
-            Self::Chain(_) => return Chain::window(),
+            Self::Chain(chain) => return chain.window(),
         };
         let mut window = poses.clone();
         let p = fold.half_width;
@@ -219,27 +235,17 @@ impl Fold {
     }
 }
 
-/// Least half-width of a fold's chart that is worth having, relative to the crank.
+/// Least half-width of a fold's chart that is worth having, relative to the crank (of an elbow's angle, in rad).
 const LEAST: f64 = 1e-3;
 
-/// The legs (from 0) that can fold where no chart opens it up: those other than that of a [`Chain`] whose links are equal, or complete each other to
-/// half a turn, so that the platform's joint can come onto the motor's axis. Boxes there are never decided.
-pub fn uncharted_folds(robot: &Robot, window: &Window) -> Vec<usize> {
-    let Some(chain) = Chain::of(robot, window) else { return Vec::new() };
-    let folds = |j: &usize| match robot.legs[*j].actuator {
-        Actuator::Spherical { proximal: (cos, _), distal_cos } => {
-            (cos.square() - distal_cos.square()).contains(0.0)
-        }
-        _ => false,
-    };
-    (0..robot.dof()).filter(|&j| j != chain.leg).filter(folds).collect()
-}
-
 /// The charts that replace the pose where it is not enough: for a platform that turns about a point, if the window is all of its
-/// orientations, one leg's joint angles everywhere; else the robot's folds.
+/// orientations, one leg's joint angles everywhere, and those of others where these fold; else the robot's folds.
 pub fn charts(robot: &Robot, window: &Window) -> Vec<Chart> {
     match Chain::of(robot, window) {
-        Some(chain) => vec![Chart::Chain(chain)],
+        Some(chain) => {
+            let bends = bend::bends(robot, &chain);
+            std::iter::once(chain).chain(bends).map(Chart::Chain).collect()
+        }
         None => folds(robot, window).into_iter().map(Chart::Fold).collect(),
     }
 }
@@ -261,13 +267,18 @@ pub fn folds(robot: &Robot, window: &Window) -> Vec<Fold> {
     {
         return Vec::new();
     }
+    let places = |size: f64| (0..robot.dof()).flat_map(|leg| Place::of_leg(robot, leg, size)).collect();
+    let found = largest_apart(places, |a: &Place, b: &Place| a.is_apart_from(b, robot, window));
+    found.into_iter().map(|place| place.fold).collect()
+}
+
+/// Places of the greatest size at which they are all `apart`; none if they are never.
+fn largest_apart<P>(places: impl Fn(f64) -> Vec<P>, apart: impl Fn(&P, &P) -> bool) -> Vec<P> {
     let mut size = 0.3;
     while size > LEAST {
-        let found: Vec<Place> = (0..robot.dof()).flat_map(|leg| Place::of_leg(robot, leg, size)).collect();
-        let apart =
-            |(i, a): (usize, &Place)| found[i + 1..].iter().all(|b| a.is_apart_from(b, robot, window));
-        if found.iter().enumerate().all(apart) {
-            return found.into_iter().map(|place| place.fold).collect();
+        let found = places(size);
+        if found.iter().enumerate().all(|(i, a)| found[i + 1..].iter().all(|b| apart(a, b))) {
+            return found;
         }
         size *= 0.7;
     }

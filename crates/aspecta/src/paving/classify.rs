@@ -141,11 +141,18 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
         if wanted == 0 {
             return;
         }
-        for chart in self.charts {
-            let covers: ArrayVec<Mask, 4> =
-                chart.cover(legs).into_iter().map(|m| m.tightened().range.positive()).collect();
+        for (k, chart) in self.charts.iter().enumerate() {
+            let covers: ArrayVec<(Mask, Mask), 4> = chart
+                .cover(self.robot, legs)
+                .into_iter()
+                .map(|margin| margin.tightened().range)
+                .map(|margin| (margin.positive(), margin.negative()))
+                .collect();
             for (l, node) in boxes.iter_mut().enumerate() {
-                node.covered |= covers.iter().all(|positive| positive[l]);
+                node.covered |= covers.iter().all(|(positive, _)| positive[l]);
+                if covers.iter().any(|(_, negative)| negative[l]) {
+                    node.partly &= !(1 << k);
+                }
             }
         }
         let heights: [[_; 2]; N] = std::array::from_fn(|j| legs[j].heights());

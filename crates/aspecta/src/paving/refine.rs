@@ -89,7 +89,7 @@ impl Paving {
         Self {
             axes: window.axes(),
             modes: modes.to_vec(),
-            nodes: vec![Node { undecided: all, ..Node::default() }],
+            nodes: vec![Node { undecided: all, partly: !0, ..Node::default() }],
             depth: 0,
             boxes: 0,
             stop: Stop::Resolution,

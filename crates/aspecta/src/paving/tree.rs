@@ -36,6 +36,8 @@ pub struct Node {
     pub depth: u8,
     /// Whether the chart of a fold covers all configurations of the box.
     pub covered: bool,
+    /// Charts that cover part of this one (one bit each, in their order) and may hold some configurations of the box.
+    pub partly: u16,
 }
 
 /// What a node is to a set of poses that is being looked at.
@@ -171,7 +173,8 @@ impl Paving {
         }
     }
 
-    /// Visits the boxes of a set (as in [`Paving::boxes_of`]) that may share a point with a box of poses.
+    /// Visits the boxes of a set (as in [`Paving::boxes_of`]) that may share a point with a box of poses, modulo full turns
+    /// where these are glued.
     pub fn meeting(&self, sight: &impl Fn(&Node) -> Mark, poses: &[Interval], visit: &mut impl FnMut(u32)) {
         self.descend(0, sight, poses, visit);
     }
@@ -184,7 +187,7 @@ impl Paving {
         visit: &mut impl FnMut(u32),
     ) {
         let (lo, hi) = self.bounds(at);
-        let meets = self.axes.iter().enumerate().all(|(a, &k)| poses[k].lo <= hi[a] && lo[a] <= poses[k].hi);
+        let meets = self.on_all_axes(poses, |a, x| x.lo <= hi[a] && lo[a] <= x.hi);
         match sight(&self.nodes[at as usize]) {
             _ if !meets => {}
             Mark::Outside => {}
@@ -195,10 +198,19 @@ impl Paving {
         }
     }
 
-    /// Whether all the poses lie in a box.
+    /// Whether all the poses lie in a box, modulo full turns where these are glued.
     pub fn holds(&self, node: u32, poses: &[Interval]) -> bool {
         let (lo, hi) = self.bounds(node);
-        self.axes.iter().enumerate().all(|(a, &k)| lo[a] <= poses[k].lo && poses[k].hi <= hi[a])
+        self.on_all_axes(poses, |a, x| lo[a] <= x.lo && x.hi <= hi[a])
+    }
+
+    /// Whether something is so of the range of a box along each axis, modulo full turns where the axis is glued.
+    fn on_all_axes(&self, ranges: &[Interval], holds: impl Fn(usize, Interval) -> bool) -> bool {
+        let turn = Interval::PI * Interval::point(2.0);
+        self.axes.iter().enumerate().all(|(a, &k)| {
+            let x = ranges[k];
+            holds(a, x) || self.window.glued[k] && (holds(a, x + turn) || holds(a, x - turn))
+        })
     }
 
     /// The box (as in [`Paving::boxes_of`], or one outside the set) that holds the pose, and whether the pose lies in

@@ -3,7 +3,9 @@
 //! Written for any scalar and independently of `kinematics`, but for the leg equation itself. Points have D = 2 or 3
 //! coordinates; there are up to six legs and coordinates, and entries beyond are zero.
 
-use crate::kinematics::chart::{Chain, Chart};
+mod chain;
+
+use crate::kinematics::chart::Chart;
 use crate::kinematics::leg::equation;
 use crate::num::{Interval, Jet, Scalar};
 use crate::robot::{Actuator, Leg, Limit, Platform, Robot};
@@ -100,38 +102,6 @@ impl<'a, T: Scalar, const D: usize> Body<'a, T, D> {
             }
         }
         body
-    }
-
-    /// Puts the platform where the angles of a chain do: R = R_z(q) R_y(a) R_z(ψ) R_y(b) R_z(ϑ) in the leg's frame, of a platform whose
-    /// joint is along z.
-    fn turn_by(&mut self, chain: &Chain, y: &[T; MOST]) {
-        let leg = &self.robot.legs[chain.leg];
-        let Actuator::Spherical { proximal: (cos_a, sin_a), distal_cos: cos_b } = leg.actuator else {
-            return;
-        };
-        let (zero, one) = (T::zero(), T::constant(Interval::point(1.0)));
-        let sin_b = (Interval::point(1.0) - cos_b.square()).sqrt();
-        let ((sin_q, cos_q), (sin_e, cos_e), (sin_t, cos_t)) =
-            (y[0].sin_cos(), y[1].sin_cos(), y[2].sin_cos());
-        let tilted = |cos: Interval, sin: Interval, v: [T; D]| {
-            let (x, z) = (v[0], v[D - 1]);
-            let mut w = v;
-            (w[0], w[D - 1]) = (x.scale(cos) + z.scale(sin), z.scale(cos) - x.scale(sin));
-            w
-        };
-        let in_crank = |v: [T; D]| tilted(cos_a, sin_a, turned(cos_e, sin_e, &tilted(cos_b, sin_b, v)));
-        let in_base =
-            |v: [T; D]| out_of_frame(leg, &turned(cos_q, sin_q, &in_crank(turned(cos_t, sin_t, &v))));
-        let unit = |i: usize| std::array::from_fn(|k| if i == k { one } else { zero });
-        // The platform's axes, at ϑ = 0, lie along y, −x and z.
-        let (x, y, z) = (in_base(unit(0)), in_base(unit(1)), in_base(unit(2)));
-        let axes = [y, x.map(|x| -x), z];
-        let body = chain.body(self.robot);
-        self.rotation = Some(std::array::from_fn(|i| {
-            std::array::from_fn(|k| times(|a| body[a][i], &axes.map(|v| v[k])))
-        }));
-        self.own =
-            Some(Own { leg: chain.leg, cos: cos_q, sin: sin_q, span: in_crank(unit(2)), swing: sin_a });
     }
 
     /// Where the platform's origin is.
@@ -303,15 +273,6 @@ impl<'a, T: Scalar, const D: usize> Body<'a, T, D> {
             _ => q,
         };
         rod.map(|x| x / length)
-    }
-}
-
-impl Body<'_, Interval, 3> {
-    /// The pose of a platform that turns about a point, as far as these are small intervals away from the poles of the pitch; else anything.
-    pub(super) fn roll_pitch_yaw(&self) -> [Interval; 3] {
-        let Some([x, y, z]) = self.rotation else { return [Interval::ENTIRE; 3] };
-        let angle = |cos, sin| Interval::angle(cos, sin).unwrap_or(Interval::ENTIRE);
-        [angle(z[2], y[2]), angle((x[0].square() + x[1].square()).sqrt(), -x[2]), angle(x[0], x[1])]
     }
 }
 

@@ -1,10 +1,10 @@
 //! Whether the charts cover what they must, and how they meet.
 
+use super::Sheet;
 use super::body::Body;
-use super::cells::Cells;
 use super::place::{Coordinates, Place, Setting};
 use crate::certificate::Certificate;
-use crate::kinematics::chart::{Chart, Fold};
+use crate::kinematics::chart::{Bend, Chain, Chart, Fold};
 use crate::num::{Interval, Scalar};
 use crate::paving::ClassSet;
 use crate::robot::{Actuator, Platform, Robot, Window};
@@ -12,17 +12,23 @@ use crate::robot::{Actuator, Platform, Robot, Window};
 /// The window of a chart, given that of the poses.
 pub(super) fn window_of(chart: &Chart, poses: &Window) -> Window {
     let turn = (-Interval::PI.hi, Interval::PI.hi);
-    // The coordinates that take the place of those of the pose, and how many of them are angles.
+    let about_zero = |half_width: f64| (-half_width, half_width);
+    // The coordinates that take the place of those of the pose, and which of them are angles.
     let (ranges, angles) = match chart {
-        Chart::Pose => ([None; 3], 0),
-        Chart::Fold(fold) => ([Some(turn), Some((-fold.half_width, fold.half_width)), fold.axial], 1),
-        Chart::Chain(_) => ([Some(turn); 3], 3),
+        Chart::Pose => ([None; 3], [false; 3]),
+        Chart::Fold(fold) => {
+            ([Some(turn), Some(about_zero(fold.half_width)), fold.axial], [true, false, false])
+        }
+        Chart::Chain(chain) => {
+            let elbow = chain.bend.as_ref().map_or(turn, |bend| about_zero(bend.half_width));
+            ([Some(turn), Some(elbow), Some(turn)], [true; 3])
+        }
     };
     let mut window = poses.clone();
     for (k, range) in ranges.into_iter().enumerate().filter_map(|(k, range)| Some((k, range?))) {
         window.ranges[k] = range;
-        window.glued[k] = k < angles;
-        window.angles[k] = k < angles;
+        window.glued[k] = range == turn;
+        window.angles[k] = angles[k];
         window.cut[k] = (false, false);
     }
     window
@@ -31,6 +37,16 @@ pub(super) fn window_of(chart: &Chart, poses: &Window) -> Window {
 /// The charts of a certificate, by sheet from 1.
 pub(super) fn of(certificate: &Certificate) -> Vec<&Chart> {
     certificate.sheets.iter().skip(1).map(|sheet| &sheet.chart).collect()
+}
+
+/// The sheet whose leaves, and those that replace some of them, hold all configurations: that of a chain that holds all, or of the poses.
+pub(super) fn base_of(charts: &[&Chart]) -> usize {
+    usize::from(charts.first().is_some_and(|chart| chart.is_whole()))
+}
+
+/// The sheet over which a sheet from 1 on lies: the base, or for the base itself the poses.
+pub(super) fn beneath(sheet: usize, base: usize) -> usize {
+    if sheet > base { base } else { 0 }
 }
 
 /// What is wrong with the window of the poses.
@@ -62,18 +78,26 @@ pub(super) fn fault_of_fold(robot: &Robot, poses: &Window, fold: &Fold) -> Optio
 /// Most boxes into which a chart is cut to prove it disjoint from another.
 const EFFORT: usize = 100_000;
 
-/// Whether no configuration is in two charts; `setting` is that of the first.
+/// Whether no configuration is in two charts, each a part of all of them; `setting` is that of the first.
 pub(super) fn are_disjoint<const D: usize>(
     setting: &Setting<'_>,
     chart: &Chart,
     other_chart: &Chart,
 ) -> bool {
-    let (Chart::Fold(fold), Chart::Fold(other)) = (chart, other_chart) else { return false };
-    if fold.leg == other.leg {
-        return match (fold.axial, other.axial) {
-            (Some(a), Some(b)) => a.1 < b.0 || b.1 < a.0,
-            _ => false,
-        };
+    match (chart, other_chart) {
+        (Chart::Fold(fold), Chart::Fold(other)) if fold.leg == other.leg => {
+            return match (fold.axial, other.axial) {
+                (Some(a), Some(b)) => a.1 < b.0 || b.1 < a.0,
+                _ => false,
+            };
+        }
+        (
+            Chart::Chain(Chain { leg, bend: Some(bend) }),
+            Chart::Chain(Chain { leg: other_leg, bend: Some(other) }),
+        ) if leg == other_leg => return are_ends_apart(bend, other),
+        (Chart::Fold(_), Chart::Fold(_)) => {}
+        (Chart::Chain(Chain { bend: Some(_), .. }), Chart::Chain(Chain { bend: Some(_), .. })) => {}
+        _ => return false,
     }
     let range =
         |k: usize| setting.window.ranges.get(k).map_or(Interval::point(0.0), |r| Interval::new(r.0, r.1));
@@ -87,41 +111,50 @@ pub(super) fn are_disjoint<const D: usize>(
     false
 }
 
-/// The poses of a box of a chart.
-pub(super) fn poses<const D: usize>(setting: &Setting<'_>, y: &Coordinates) -> Coordinates {
-    let mut pose = *y;
-    if let Chart::Chain(_) = setting.chart {
-        let body = Body::<Interval, 3>::new(setting.robot, setting.chart, y);
-        pose[..3].copy_from_slice(&body.roll_pitch_yaw());
-    } else {
-        pose[..D].copy_from_slice(Body::<Interval, D>::new(setting.robot, setting.chart, y).origin());
+/// Whether a leg's elbow is never near both ends.
+fn are_ends_apart(bend: &Bend, other: &Bend) -> bool {
+    bend.back != other.back && bend.half_width + other.half_width < 3.0
+}
+
+/// What a box of a sheet is in the coordinates of the one beneath, whose chart is `under`: in each posture of a chain's leg.
+pub(super) fn images<const D: usize>(
+    setting: &Setting<'_>,
+    y: &Coordinates,
+    under: &Chart,
+) -> Vec<Coordinates> {
+    let body = Body::<Interval, D>::new(setting.robot, setting.chart, y);
+    let mut image = *y;
+    match (under, setting.chart) {
+        (Chart::Chain(chain), _) => return body.joint_angles(chain).into(),
+        (_, Chart::Chain(_)) => image[..3].copy_from_slice(&body.roll_pitch_yaw()),
+        _ => image[..D].copy_from_slice(body.origin()),
     }
-    pose
+    vec![image]
 }
 
 /// Most times a face is halved to see what it touches.
 const HALVINGS: u32 = 12;
 
-/// The leaves of sheet 0 that a leaf of another chart may meet on its outer faces: for a fold those of p, and of w in space. They
-/// are not covered and have a class in common with it.
-pub(super) fn met_outside<const D: usize>(
-    setting: &Setting<'_>,
-    cells: &Cells,
-    leaf: usize,
-    sheet_0: &Cells,
-) -> Vec<usize> {
+/// The leaves of the base that a leaf of a later sheet may meet on the outer faces of its chart. They are not covered and have a class in
+/// common with it.
+pub(super) fn met_outside<const D: usize>(sheet: &Sheet<'_>, leaf: usize, base: &Sheet<'_>) -> Vec<usize> {
+    let Sheet { setting, cells } = sheet;
     let claims = cells.leaves[leaf].claims;
     let y = cells.of(leaf);
     let mut found = Vec::new();
-    if setting.chart.is_whole() {
-        return found;
-    }
-    for k in 1..D {
+    let ends = match setting.chart {
+        // p, and w in space.
+        Chart::Fold(_) => 1..D,
+        // The elbow's angle.
+        Chart::Chain(Chain { bend: Some(_), .. }) => 1..2,
+        _ => 0..0,
+    };
+    for k in ends {
         let [low, high] = cells.at_ends(leaf, k);
         for (_, end) in [(low, y[k].lo), (high, y[k].hi)].into_iter().filter(|(outer, _)| *outer) {
             let mut face = y;
             face[k] = Interval::point(end);
-            meet::<D>(setting, &face, claims.inside | claims.undecided, sheet_0, HALVINGS, &mut found);
+            meet::<D>(setting, &face, claims.inside | claims.undecided, base, HALVINGS, &mut found);
         }
     }
     found.sort_unstable();
@@ -133,27 +166,27 @@ fn meet<const D: usize>(
     setting: &Setting<'_>,
     face: &Coordinates,
     classes: ClassSet,
-    sheet_0: &Cells,
+    base: &Sheet<'_>,
     halvings: u32,
     found: &mut Vec<usize>,
 ) {
-    let pose = poses::<D>(setting, face);
     let mut here = Vec::new();
-    sheet_0.meeting(&pose, &mut |leaf| {
-        let claims = sheet_0.leaves[leaf].claims;
-        if !claims.covered && (claims.inside | claims.undecided) & classes != 0 {
-            here.push(leaf);
-        }
-    });
-    let small = here.iter().all(|&leaf| {
-        let cell = sheet_0.of(leaf);
-        (0..pose.len()).all(|k| pose[k].width() <= 0.5 * cell[k].width())
-    });
+    let mut small = true;
+    for image in images::<D>(setting, face, base.setting.chart) {
+        base.cells.meeting(&image, &mut |leaf| {
+            let claims = base.cells.leaves[leaf].claims;
+            if !claims.covered && (claims.inside | claims.undecided) & classes != 0 {
+                let cell = base.cells.of(leaf);
+                small &= (0..image.len()).all(|k| image[k].width() <= 0.5 * cell[k].width());
+                here.push(leaf);
+            }
+        });
+    }
     if small || halvings == 0 {
         found.extend(here);
         return;
     }
     let [low, high] = setting.halves(face);
-    meet::<D>(setting, &low, classes, sheet_0, halvings - 1, found);
-    meet::<D>(setting, &high, classes, sheet_0, halvings - 1, found);
+    meet::<D>(setting, &low, classes, base, halvings - 1, found);
+    meet::<D>(setting, &high, classes, base, halvings - 1, found);
 }

@@ -14,12 +14,14 @@ use std::f64::consts::FRAC_PI_2;
 /// All leaves, numbered through the sheets, and which pairs touch.
 struct Leaves<'a> {
     sheets: &'a [Sheet<'a>],
+    /// The sheet whose leaves, and those that replace some of them, hold all configurations.
+    base: usize,
     /// The number of the first leaf of each sheet.
     first: Vec<usize>,
     all: Vec<Leaf>,
     /// Pairs of one sheet whose boxes share a point.
     touching: Vec<(u32, u32)>,
-    /// Pairs of a leaf of another sheet and one of sheet 0 that may share a configuration.
+    /// Pairs of a leaf of a later sheet and one of the base that may share a configuration.
     across: Vec<(u32, u32)>,
     /// Leaves at pitch −π/2 and at π/2, where roll and yaw are one.
     poles: [Vec<usize>; 2],
@@ -34,7 +36,7 @@ pub(super) fn check<const D: usize>(
     verdict: &mut Verdict,
 ) {
     (control.progress)(Progress { stage: "adjacency", done: 0, total: 1 });
-    let leaves = Leaves::new::<D>(certificate, sheets);
+    let leaves = Leaves::new::<D>(certificate, sheets, charts::base_of(charts));
     let classes = 2 * certificate.modes.len();
     let count = |class: usize| {
         (control.progress)(Progress { stage: "counting", done: class as u64, total: classes as u64 });
@@ -49,6 +51,13 @@ pub(super) fn check<const D: usize>(
             verdict.faults.push(Fault::of_class(class, reason));
         }
         match (claimed.high, proved.high) {
+            (_, Some(high)) if high < proved.low => {
+                let reason = format!(
+                    "at least {} aspects are proved and at most {high}: the robot or the checker is not sound",
+                    proved.low
+                );
+                verdict.faults.push(Fault::of_class(class, reason));
+            }
             (Some(high), None) => {
                 let reason = format!(
                     "at most {high} aspects are claimed, but leaves are undecided, not covered and not summitless"
@@ -65,7 +74,7 @@ pub(super) fn check<const D: usize>(
 }
 
 impl<'a> Leaves<'a> {
-    fn new<const D: usize>(certificate: &Certificate, sheets: &'a [Sheet<'a>]) -> Self {
+    fn new<const D: usize>(certificate: &Certificate, sheets: &'a [Sheet<'a>], base: usize) -> Self {
         let mut first = Vec::new();
         let mut all: Vec<Leaf> = Vec::new();
         for sheet in sheets {
@@ -73,15 +82,12 @@ impl<'a> Leaves<'a> {
             all.extend(sheet.cells.leaves.iter().map(|cell| cell.claims));
         }
         let mut leaves =
-            Self { sheets, first, all, touching: vec![], across: vec![], poles: Default::default() };
+            Self { sheets, base, first, all, touching: vec![], across: vec![], poles: Default::default() };
         leaves.touching = leaves.pairs(|s, leaf| leaves.neighbours(s, leaf));
         leaves.across = leaves.pairs(|s, leaf| {
-            let sheet = &sheets[s];
-            if s == 0 {
-                vec![]
-            } else {
-                charts::met_outside::<D>(&sheet.setting, &sheet.cells, leaf, &sheets[0].cells)
-            }
+            let met = |leaf| charts::met_outside::<D>(&sheets[s], leaf, &sheets[base]);
+            let met = if s > base { met(leaf) } else { Vec::new() };
+            met.into_iter().map(|other| leaves.first[base] + other).collect()
         });
         let varies = |k: usize| certificate.window.ranges[k].0 < certificate.window.ranges[k].1;
         if let Some([roll, pitch, yaw]) = certificate.robot.platform.turns()
@@ -141,24 +147,20 @@ impl<'a> Leaves<'a> {
             let members: Vec<usize> = pole.iter().copied().filter(|&i| is_member(i)).collect();
             members.windows(2).for_each(|pair| sets.union(pair[0], pair[1]));
         }
-        let holds_some = |i: &usize| {
-            self.all[*i].inside & bit != 0
-                && is_member(*i)
-                && (self.is_of_chart(*i) || self.is_clear::<D>(*i, charts))
-        };
+        let holds_some =
+            |i: &usize| self.all[*i].inside & bit != 0 && is_member(*i) && self.is_clear::<D>(*i, charts);
         sets.count((0..self.all.len()).filter(holds_some))
     }
 
-    fn is_of_chart(&self, leaf: usize) -> bool {
-        leaf >= self.sheets[0].cells.leaves.len()
-    }
-
-    /// Whether the middle of a leaf of sheet 0 is in no other chart.
+    /// Whether the middle of a leaf is in no chart of a later sheet, as those of sheets after the base are, which are disjoint.
     fn is_clear<const D: usize>(&self, leaf: usize, charts: &[&Chart]) -> bool {
-        let middle = self.sheets[0].cells.of(leaf).map(|x| Interval::point(x.mid()));
-        charts.is_empty() || {
-            let place = Place::<D>::new(&self.sheets[0].setting, middle);
-            charts.iter().all(|chart| place.is_clear_of(chart))
+        let sheet = self.first.partition_point(|&first| first <= leaf) - 1;
+        let later = &charts[sheet..];
+        sheet > self.base || later.is_empty() || {
+            let Sheet { setting, cells } = &self.sheets[sheet];
+            let middle = cells.of(leaf - self.first[sheet]).map(|x| Interval::point(x.mid()));
+            let place = Place::<D>::new(setting, middle);
+            later.iter().all(|chart| place.is_clear_of(chart))
         }
     }
 

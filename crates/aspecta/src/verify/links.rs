@@ -20,10 +20,11 @@ pub(super) fn check<const D: usize>(
     verdict: &mut Verdict,
 ) -> Vec<Link> {
     let mut links = Vec::new();
+    let base = charts::base_of(&charts::of(certificate));
     let joins = certificate.joins.iter();
     let joins = joins.map(|join| (join.class, "join", link_of_join::<D>(certificate, sheets, join)));
     let seams = certificate.seams.iter();
-    let seams = seams.map(|seam| (seam.class, "seam", link_of_seam::<D>(sheets, seam)));
+    let seams = seams.map(|seam| (seam.class, "seam", link_of_seam::<D>(sheets, base, seam)));
     let mut number = [0, 0];
     for (class, kind, link) in joins.chain(seams) {
         let index = &mut number[usize::from(kind == "seam")];
@@ -43,7 +44,7 @@ fn inside(sheets: &[Sheet<'_>], sheet: usize, y: &Coordinates, class: usize) -> 
     let is_inside = |leaf: &usize| cells.leaves[*leaf].claims.inside >> class & 1 == 1;
     let mut found: Vec<usize> = cells.holding(y).into_iter().filter(is_inside).collect();
     let window = &setting.window;
-    let within = |k: usize| window.glued[k] || window.ranges[k].0 <= y[k].lo && y[k].hi <= window.ranges[k].1;
+    let within = |k: usize| window.ranges[k].0 <= y[k].lo && y[k].hi <= window.ranges[k].1;
     if found.is_empty() && (0..window.ranges.len()).all(within) {
         // The leaves cover the box: if all are inside, so is the box, which is connected.
         cells.meeting(y, &mut |leaf| found.push(leaf));
@@ -122,17 +123,23 @@ fn is_inside_all_along<const D: usize>(
     false
 }
 
-fn link_of_seam<const D: usize>(sheets: &[Sheet<'_>], seam: &Seam) -> Result<Vec<(usize, usize)>, String> {
+fn link_of_seam<const D: usize>(
+    sheets: &[Sheet<'_>],
+    base: usize,
+    seam: &Seam,
+) -> Result<Vec<(usize, usize)>, String> {
     let y = point(&seam.point);
     let mut leaves = inside(sheets, seam.sheet, &y, seam.class);
     if leaves.is_empty() {
         return Err(format!("the point lies in no inside leaf of sheet {}", seam.sheet));
     }
-    let pose = charts::poses::<D>(&sheets[seam.sheet].setting, &y);
-    let outside = inside(sheets, 0, &pose, seam.class);
-    if outside.is_empty() {
-        return Err("the pose is not proved to lie in an inside leaf of sheet 0".into());
+    let under = charts::beneath(seam.sheet, base);
+    let images = charts::images::<D>(&sheets[seam.sheet].setting, &y, sheets[under].setting.chart);
+    // In the other posture of a chain's leg it is in no leaf that is inside the class.
+    let found: Vec<_> = images.iter().flat_map(|image| inside(sheets, under, image, seam.class)).collect();
+    if found.is_empty() {
+        return Err(format!("it is not proved to lie in an inside leaf of sheet {under} as well"));
     }
-    leaves.extend(outside);
+    leaves.extend(found);
     Ok(leaves)
 }

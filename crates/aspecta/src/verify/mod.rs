@@ -6,17 +6,18 @@
 //!
 //! # Theorem
 //! Let S be the set of configurations (X, q) of a working mode s and a sign σ: H_j > 0, limits kept, s_j B_jj > 0, σ det A > 0, X in the
-//! window. Let closed boxes cover it: the leaves of sheet 0 that are not covered, and those of the other sheets. If all checks below
+//! window. Let closed boxes cover it: the leaves that are not covered, of all sheets. If all checks below
 //! succeed, then for each class `low` ≤ number of components of S ≤ `high`.
 //!
-//! - *Inside* leaves lie in S, *outside* leaves do not meet it, a *covered* leaf has all its configurations in the chart of one
-//!   fold (or of several), whose charts are disjoint, or in that of a chain, which holds all: in charts of later sheets than its own. The rest is
-//!   undecided.
-//! - **Low.** Of a leaf of sheet 0 take the configurations that are not in the interior of a fold's chart. With the leaves of the
-//!   folds these closed sets cover S, so each component of S lies in one component of the graph G⁺ that joins any two which may share a
+//! - The *base* is a sheet that holds all configurations: sheet 1 if that is a chain, else sheet 0. Sheets after the base hold parts, those near folds:
+//!   the charts of folds, or bends of chains, which are disjoint.
+//! - *Inside* leaves lie in S, *outside* leaves do not meet it, a *covered* leaf has all its configurations in the charts of later sheets than its own. The
+//!   rest is undecided.
+//! - **Low.** Of a leaf of the base take the configurations that are not in the interior of a later chart. With the leaves of the later sheets
+//!   these closed sets cover S, so each component of S lies in one component of the graph G⁺ that joins any two which may share a
 //!   point. Leaves of one sheet do if their boxes touch (modulo full turns; at pitch ±π/2 always, roll and yaw being one); a
-//!   leaf of sheet 0 and one of a fold share points only on the outer faces of the fold's chart. A component of G⁺ with an inside
-//!   leaf of a fold, or one of sheet 0 whose middle is proved to be in no fold's chart, holds an aspect; different ones hold different ones.
+//!   leaf of the base and one of a later sheet share points only on the outer faces of the latter's chart. A component of G⁺ with an inside
+//!   leaf of a later sheet, or one of the base whose middle is proved to be in no later chart, holds an aspect; different ones hold different ones.
 //! - **High.** P = min of σ det A, the h_j = √H_j, the limits and the distances to faces that the user's window cuts, each divided by
 //!   the same positive number everywhere, is continuous and vanishes on the boundary of S, so each component has a maximum of P. In a
 //!   *summitless* leaf there is none: on each part of it some tangent vector of the configurations makes every function grow that can be the
@@ -45,6 +46,8 @@ mod count;
 mod curvature;
 mod determinant;
 mod direction;
+#[cfg(test)]
+mod forged;
 mod graph;
 mod in_mode;
 mod links;
@@ -82,20 +85,32 @@ pub fn verify(certificate: &Certificate, control: &Control<'_>) -> Verdict {
 /// [`verify`] in D dimensions.
 fn verify_in<const D: usize>(certificate: &Certificate, control: &Control<'_>) -> Verdict {
     let mut verdict = Verdict::new(certificate);
-    let sheets = sheets(certificate);
     let charts = charts::of(certificate);
-    check_charts::<D>(certificate, &sheets, &charts, &mut verdict);
+    check_windows(certificate, &charts, &mut verdict);
     if verdict.faults.is_empty() {
-        check_leaves::<D>(certificate, &sheets, &charts, control, &mut verdict);
-    }
-    if verdict.faults.is_empty() && !control.is_cancelled() {
-        let links = links::check::<D>(certificate, &sheets, &mut verdict);
-        if verdict.faults.is_empty() {
-            count::check::<D>(certificate, &sheets, &charts, &links, control, &mut verdict);
-        }
+        check_boxes::<D>(certificate, &charts, control, &mut verdict);
     }
     verdict.complete = !control.is_cancelled();
     verdict
+}
+
+fn check_boxes<const D: usize>(
+    certificate: &Certificate,
+    charts: &[&Chart],
+    control: &Control<'_>,
+    verdict: &mut Verdict,
+) {
+    let sheets = sheets(certificate);
+    check_charts::<D>(&sheets, charts, verdict);
+    if verdict.faults.is_empty() {
+        check_leaves::<D>(certificate, &sheets, charts, control, verdict);
+    }
+    if verdict.faults.is_empty() && !control.is_cancelled() {
+        let links = links::check::<D>(certificate, &sheets, verdict);
+        if verdict.faults.is_empty() {
+            count::check::<D>(certificate, &sheets, charts, &links, control, verdict);
+        }
+    }
 }
 
 /// A sheet: its chart and its boxes.
@@ -117,12 +132,8 @@ fn sheets(certificate: &Certificate) -> Vec<Sheet<'_>> {
     .collect()
 }
 
-fn check_charts<const D: usize>(
-    certificate: &Certificate,
-    sheets: &[Sheet<'_>],
-    charts: &[&Chart],
-    verdict: &mut Verdict,
-) {
+/// What is wrong with the window and the constants of the charts, whose boxes are not looked at before.
+fn check_windows(certificate: &Certificate, charts: &[&Chart], verdict: &mut Verdict) {
     if let Some(reason) = charts::fault_of_window(certificate) {
         verdict.faults.push(Fault::of_sheet(0, reason));
     }
@@ -133,10 +144,11 @@ fn check_charts<const D: usize>(
             verdict.faults.push(Fault::of_sheet(k + 1, reason.into()));
         }
     }
-    if !verdict.faults.is_empty() {
-        return;
-    }
-    for (k, chart) in charts.iter().enumerate() {
+}
+
+/// No configuration is in two charts, but for one that holds all.
+fn check_charts<const D: usize>(sheets: &[Sheet<'_>], charts: &[&Chart], verdict: &mut Verdict) {
+    for (k, chart) in charts.iter().enumerate().filter(|(_, chart)| !chart.is_whole()) {
         for (l, other) in charts.iter().enumerate().skip(k + 1) {
             if !charts::are_disjoint::<D>(&sheets[k + 1].setting, chart, other) {
                 let reason = format!("its chart is not proved to be disjoint from that of sheet {}", l + 1);

@@ -4,7 +4,7 @@ use super::body::{Body, LegState, MOST, joint};
 use super::in_mode::InMode;
 use crate::aspect::Scale;
 use crate::kinematics::WorkingMode;
-use crate::kinematics::chart::{Chart, Fold};
+use crate::kinematics::chart::{Bend, Chain, Chart, Fold};
 use crate::kinematics::leg::equation;
 use crate::num::{Interval, Jet, Scalar};
 use crate::paving::AXES;
@@ -267,8 +267,24 @@ impl<'a, const D: usize> Place<'a, D> {
     fn margins_of(&self, chart: &Chart) -> Vec<Interval> {
         match chart {
             Chart::Fold(fold) => self.fold_margins(fold),
+            Chart::Chain(Chain { leg, bend: Some(bend) }) => vec![self.bend_margin(*leg, bend)],
             Chart::Pose | Chart::Chain(_) => Vec::new(),
         }
+    }
+
+    /// How far beyond the boundary of a bend's chart v is along the motor's axis: w·v = cos a cos b − sin a sin b cos ψ, ψ being the elbow's angle.
+    fn bend_margin(&self, leg: usize, bend: &Bend) -> Interval {
+        let Actuator::Spherical { proximal: (cos_a, sin_a), distal_cos: cos_b } =
+            self.setting.robot.legs[leg].actuator
+        else {
+            return Interval::ENTIRE;
+        };
+        let span = &self.spans[leg];
+        let along = self.range(&span.over[D - 1], span.at_middle[D - 1], None);
+        let sin_b = (ONE - cos_b.square()).sqrt();
+        let at_end = sin_a * sin_b * Interval::point(bend.half_width).sin_cos().1;
+        let beyond = along - cos_a * cos_b;
+        (if bend.back { beyond } else { -beyond }) - at_end
     }
 
     /// Functions of the leg of a fold that are all ≥ 0 where its chart holds the configurations, as far as the leg closes: the rod's

@@ -3,7 +3,7 @@
 use super::*;
 use crate::aspect::{Options, analyze};
 use crate::certificate::{Claim, Entry, Join, Leaf};
-use crate::kinematics::chart::{Chain, Chart};
+use crate::kinematics::chart::{Bend, Chain, Chart};
 use crate::num::Scalar;
 use crate::paving::{Budget, ClassSet};
 use crate::robot::{Actuator, Leg as RobotLeg, Limit, Platform, Robot, catalogue};
@@ -49,14 +49,20 @@ static FOLDED: LazyLock<Certificate> = LazyLock::new(|| {
     certify(&Robot::new("folding", Platform::PlanePoint, legs).unwrap(), None)
 });
 
-/// One mode of a platform that turns about a point: all its configurations in the joint angles of its first leg.
-static SPHERE: LazyLock<Certificate> = LazyLock::new(|| {
-    let text = include_str!("../../tests/fixtures/limited_sphere.toml");
-    let robot = Robot::from_toml(text, "limited_sphere.toml").unwrap();
-    let options = Options { modes: vec!["---".parse().unwrap()], certificate: true, ..Options::default() };
+/// One mode of a platform that turns about a point.
+fn of_mode(mode: &str, text: &str) -> Certificate {
+    let robot = Robot::from_toml(text, "a fixture").unwrap();
+    let options = Options { modes: vec![mode.parse().unwrap()], certificate: true, ..Options::default() };
     let control = Control { cancelled: &AtomicBool::new(false), progress: &|_| {} };
     analyze(&robot, &options, &control).unwrap().certificate.unwrap()
-});
+}
+
+/// All configurations in the joint angles of the first leg.
+static SPHERE: LazyLock<Certificate> =
+    LazyLock::new(|| of_mode("---", include_str!("../../tests/fixtures/limited_sphere.toml")));
+/// Those in which the third leg is nearly folded in its own joint angles.
+static BENT: LazyLock<Certificate> =
+    LazyLock::new(|| of_mode("-++", include_str!("../../tests/fixtures/folding_sphere.toml")));
 
 /// The first leaf of a sheet that fits, to be changed.
 fn leaf(certificate: &mut Certificate, sheet: usize, fits: impl Fn(&Leaf) -> bool) -> &mut Leaf {
@@ -122,7 +128,7 @@ fn chains_are_checked() {
     assert_eq!(SPHERE.claims, [Claim { low: 2, high: Some(2) }; 2]);
     refuted(&SPHERE, "sheet 1", |c| leaf(c, 1, |leaf| leaf.inside & 3 == 2).inside ^= 3);
     refuted(&SPHERE, "sheet 1", |c| leaf(c, 1, |leaf| leaf.inside & 1 != 0).inside &= !1);
-    refuted(&SPHERE, "claimed", |c| c.sheets[1].chart = Chart::Chain(Chain { leg: 1 }));
+    refuted(&SPHERE, "claimed", |c| c.sheets[1].chart = Chart::Chain(Chain { leg: 1, bend: None }));
     refuted(&SPHERE, "claimed covered, but", |c| c.sheets.truncate(1));
     refuted(&SPHERE, "claimed summitless, but P may have a maximum here", |c| {
         deny_summits(c, 1, !0);
@@ -131,6 +137,52 @@ fn chains_are_checked() {
     refuted(&SPHERE, "at most 1 aspects are claimed, but 2 are not excluded", |c| c.claims[0].high = Some(1));
     let cut = |c: &mut Certificate| c.robot.window[0] = Some((-1.0, 1.0));
     refuted(&SPHERE, "the window is not the one", cut);
+}
+
+#[test]
+fn bends_are_checked() {
+    let verdict = checked(&BENT);
+    assert!(verdict.is_verified(), "{:?}", verdict.faults);
+    assert_eq!(BENT.claims, [Claim { low: 1, high: Some(1) }; 2]);
+    // Less than the leaves of sheet 1 that are covered need; then nothing.
+    refuted(&BENT, "claimed covered, but", |c| {
+        let Chart::Chain(Chain { bend: Some(bend), .. }) = &mut c.sheets[2].chart else { unreachable!() };
+        bend.half_width *= 0.5;
+    });
+    refuted(&BENT, "claimed covered, but", |c| {
+        c.sheets.truncate(2);
+        c.seams.retain(|seam| seam.sheet < 2);
+        c.joins.retain(|join| join.sheet < 2);
+    });
+    refuted(&BENT, "is not proved to be disjoint", |c| c.sheets.push(c.sheets[2].clone()));
+    for (words, change) in [
+        ("sheet 1 is that of a chain", (|bend| *bend = None) as fn(&mut Option<Bend>)),
+        ("the half-width of a bend", |bend| *bend = Some(Bend { back: true, half_width: 1.5 })),
+    ] {
+        let mut unsound = BENT.clone();
+        let Chart::Chain(chain) = &mut unsound.sheets[2].chart else { unreachable!() };
+        change(&mut chain.bend);
+        let error = Certificate::from_json(unsound.to_json().unwrap().as_bytes()).unwrap_err();
+        assert!(error.to_string().contains(words), "{error}");
+    }
+}
+
+/// The pieces of a bend hang together with the base by seams; what of them may touch is joined.
+#[test]
+fn bends_are_joined_with_the_base() {
+    let counted = |change: fn(&mut Certificate)| {
+        let mut certificate = BENT.clone();
+        change(&mut certificate);
+        let (sheets, mut verdict) = (sheets(&certificate), Verdict::new(&certificate));
+        let links = links::check::<3>(&certificate, &sheets, &mut verdict);
+        let (charts, control) = (charts::of(&certificate), Control::unwatched());
+        count::check::<3>(&certificate, &sheets, &charts, &links, &control, &mut verdict);
+        verdict
+    };
+    let proved = |verdict: Verdict| verdict.classes.iter().map(|class| class.proved).collect::<Vec<_>>();
+    assert_eq!(proved(counted(|_| {})), BENT.claims);
+    let apart = proved(counted(|c| c.seams.clear()));
+    assert!(apart.iter().any(|claim| claim.low == 1 && claim.high > Some(1)), "{apart:?}");
 }
 
 /// Paths in the joint angles of a leg.
@@ -161,7 +213,7 @@ fn a_chain_needs_all_orientations() {
     let error = Certificate::from_json(cut.to_json().unwrap().as_bytes()).unwrap_err();
     assert!(error.to_string().contains("a chain holds all orientations"), "{error}");
     let mut legless = SPHERE.clone();
-    legless.sheets[1].chart = Chart::Chain(Chain { leg: 3 });
+    legless.sheets[1].chart = Chart::Chain(Chain { leg: 3, bend: None });
     let error = Certificate::from_json(legless.to_json().unwrap().as_bytes()).unwrap_err();
     assert!(error.to_string().contains("leg of a chain 3"), "{error}");
 }
@@ -240,7 +292,7 @@ fn good_paths_are_accepted() {
 fn seams_are_checked() {
     refuted(&FOLDED, "are not excluded", |c| c.seams.clear());
     refuted(&FOLDED, "seam 0: the point lies in no inside leaf", |c| c.seams[0].class ^= 1);
-    refuted(&FOLDED, "the pose is not proved to lie in an inside leaf of sheet 0", |c| {
+    refuted(&FOLDED, "it is not proved to lie in an inside leaf of sheet 0 as well", |c| {
         let bit = 1 << c.seams[0].class;
         for entry in &mut c.sheets[0].tree.0 {
             if let Entry::Leaf(leaf) = entry {
@@ -276,7 +328,7 @@ fn covered_leaves_are_covered() {
 /// What a chart holds is not elsewhere: its own leaves are not covered, or nothing would be left to count.
 #[test]
 fn no_chart_covers_itself() {
-    for certificate in [&FOLDED, &SPHERE] {
+    for certificate in [&FOLDED, &SPHERE, &BENT] {
         refuted(certificate, "claimed covered, but", |c| {
             for entry in c.sheets.iter_mut().skip(1).flat_map(|sheet| &mut sheet.tree.0) {
                 if let Entry::Leaf(leaf) = entry {

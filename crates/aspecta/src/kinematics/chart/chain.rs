@@ -1,10 +1,10 @@
-//! The joint angles of a spherical leg as coordinates of all configurations.
+//! The joint angles of a spherical leg as coordinates of all configurations, or of those near its fold.
 
 use super::Folded;
 use crate::kinematics::leg::Closure;
 use crate::kinematics::modal::{LegClosure, closures};
-use crate::kinematics::placement::{Placement, out_of_frame, roll_pitch_yaw};
-use crate::num::{Interval, Scalar, each};
+use crate::kinematics::placement::{Placement, into_frame, out_of_frame, roll_pitch_yaw};
+use crate::num::{Interval, Scalar, dot, each};
 use crate::robot::{Actuator, Platform, Robot, Window};
 use serde::{Deserialize, Serialize};
 
@@ -22,9 +22,44 @@ use serde::{Deserialize, Serialize};
 /// These are coordinates of all (X, q_j), in both postures of the leg, without any singularity: no poles of the pitch, no fold, no root;
 /// the leg's serial singularities are ψ = 0 and ψ = π.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Chain {
     /// Leg j, from 0.
     pub leg: usize,
+    /// What part of the configurations the chart holds: all if `None`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bend: Option<Bend>,
+}
+
+/// The configurations in which the elbow is near an end of its way. The chart's second coordinate is then ψ less ψ₀, 0 or π.
+///
+/// It covers exactly the orientations with ±w_j·v_j ≥ ±cos a cos b + sin a sin b cos(half width), + for ψ₀ = π, since
+/// w_j·v_j = cos a cos b − sin a sin b cos ψ, w_j being the motor's axis.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Bend {
+    /// Whether ψ₀ = π, where the distal link lies back along the proximal one and v is nearest to the motor's axis; or ψ₀ = 0, where it is
+    /// nearest to the opposite of that axis.
+    pub back: bool,
+    /// The chart holds −half_width ≤ ψ − ψ₀ ≤ half_width (rad).
+    pub half_width: f64,
+}
+
+impl Bend {
+    /// A function of leg j at an orientation: where it is positive and the leg closes, the chart covers the orientation.
+    pub(super) fn cover<T: Scalar, const D: usize>(&self, actuator: &Actuator, span: &[T; D]) -> Option<T> {
+        let Actuator::Spherical { proximal: (cos_a, sin_a), distal_cos: cos_b } = *actuator else {
+            return None;
+        };
+        let across = sin_a * sine_of(cos_b) * Interval::point(self.half_width).sin_cos().1;
+        let beyond = span[D - 1] - T::constant(cos_a * cos_b);
+        Some(if self.back { beyond } else { -beyond } - T::constant(across))
+    }
+}
+
+/// The sine of a link's angle, whose cosine is given.
+fn sine_of(cos: Interval) -> Interval {
+    (Interval::point(1.0) - cos.square()).sqrt()
 }
 
 impl Chain {
@@ -38,14 +73,15 @@ impl Chain {
     pub(super) fn of(robot: &Robot, window: &Window) -> Option<Self> {
         let whole = window.cut.iter().all(|&cut| cut == (false, false)) && window.held().next().is_none();
         let spherical = matches!(robot.legs.first()?.actuator, Actuator::Spherical { .. });
-        (robot.platform == Platform::TurningBody && spherical && whole).then_some(Self { leg: 0 })
+        (robot.platform == Platform::TurningBody && spherical && whole).then_some(Self { leg: 0, bend: None })
     }
 
-    pub(super) fn window() -> Window {
+    pub(super) fn window(&self) -> Window {
         let turn = (-Interval::PI.hi, Interval::PI.hi);
+        let elbow = self.bend.as_ref().map_or(turn, |bend| (-bend.half_width, bend.half_width));
         Window {
-            ranges: vec![turn; 3],
-            glued: vec![true; 3],
+            ranges: vec![turn, elbow, turn],
+            glued: vec![true, self.bend.is_none(), true],
             angles: vec![true; 3],
             cut: vec![(false, false); 3],
         }
@@ -58,35 +94,87 @@ impl Chain {
         turn: impl Fn(usize) -> (T, T),
     ) -> (Placement<T, D>, [LegClosure<T, D>; N]) {
         let leg = &robot.legs[self.leg];
-        let Actuator::Spherical { proximal: (cos_a, sin_a), distal_cos: cos_b } = leg.actuator else {
-            unreachable!("a platform that turns about a point has spherical legs only");
+        let (sin, cos) = turn(0);
+        let (sin_psi, cos_psi) = match self.bend {
+            Some(Bend { back: true, .. }) => (-turn(1).0, -turn(1).1),
+            _ => turn(1),
         };
-        let one = Interval::point(1.0);
-        let sin_b = (one - cos_b.square()).sqrt();
-        let ((sin, cos), (sin_psi, cos_psi), (sin_theta, cos_theta)) = (turn(0), turn(1), turn(2));
-        let vector = |x: T, y: T, z: T| -> [T; D] { each!(|k| [x, y, z][k]) };
-        let constant = |x: Interval| T::constant(x);
-        let w = vector(cos.scale(sin_a), sin.scale(sin_a), constant(cos_a));
-        let n = vector(cos.scale(cos_a), sin.scale(cos_a), constant(-sin_a));
-        let t = vector(-sin, cos, T::zero());
-        // From the elbow to the platform's joint; what the elbow turns about; and what is left of three perpendicular axes at the joint.
-        let along: [T; D] = each!(|k| (cos_psi * n[k] + sin_psi * t[k]).tightened());
-        let m: [T; D] = each!(|k| (cos_psi * t[k] - sin_psi * n[k]).tightened());
-        let v: [T; D] = each!(|k| w[k].scale(cos_b) + along[k].scale(sin_b));
-        let across: [T; D] = each!(|k| w[k].scale(sin_b) - along[k].scale(cos_b));
+        let (sin_theta, cos_theta) = turn(2);
+        let Links { w, m, across, v, most } = Links::new(&leg.actuator, (sin, cos), (sin_psi, cos_psi));
         let first: [T; D] = each!(|k| (cos_theta * m[k] + sin_theta * across[k]).tightened());
         let second: [T; D] = each!(|k| (cos_theta * across[k] - sin_theta * m[k]).tightened());
         let base = [first, second, v].map(|axis| out_of_frame(leg, &axis));
         let placement = Placement::taking(&self.body(robot), &base);
         let mut legs = closures(robot, &placement);
-        let b = sin_psi.scale(sin_a * sin_b);
+        let b = sin_psi.scale(most);
+        let weight = T::constant(Interval::point(1.0));
         legs[self.leg] = LegClosure {
             arm: base[2],
             span: v,
-            closure: Closure { reach: b.square(), weight: constant(one), fixed: w, swing: [T::zero(); D] },
+            closure: Closure { reach: b.square(), weight, fixed: w, swing: [T::zero(); D] },
             fold: Some(Folded { cos, sin, b }),
         };
         (placement, legs)
+    }
+
+    /// Coordinates, in the chart that holds all configurations, that hold those of a placement: where sin ψ ≥ 0, and where sin ψ ≤ 0.
+    pub(crate) fn coordinates<const D: usize, const N: usize>(
+        &self,
+        robot: &Robot,
+        placement: &Placement<Interval, D>,
+    ) -> [[Interval; N]; 2] {
+        let leg = &robot.legs[self.leg];
+        let Actuator::Spherical { proximal: (cos_a, sin_a), distal_cos: cos_b } = leg.actuator else {
+            return [[Interval::ENTIRE; N]; 2];
+        };
+        let one = Interval::point(1.0);
+        let sin_b = sine_of(cos_b);
+        let angle = |cos: Interval, sin: Interval| Interval::angle(cos, sin).unwrap_or(Interval::ENTIRE);
+        let v: [Interval; D] = into_frame(leg, &placement.arm(leg));
+        let first: [Interval; D] = into_frame(leg, &placement.turned(&self.body(robot)[0]));
+        let cos_psi = ((cos_a * cos_b - v[D - 1]) / (sin_a * sin_b)).meet(Interval::new(-1.0, 1.0));
+        let side = (one - cos_psi.square()).sqrt();
+        [side, -side].map(|sin_psi| {
+            // v where q = 0; the motor turns it about the third axis.
+            let (x, y) = (sin_a * cos_b + cos_a * sin_b * cos_psi, sin_b * sin_psi);
+            let q = angle(v[0] * x + v[1] * y, v[1] * x - v[0] * y);
+            let Links { m, across, .. } = Links::new(&leg.actuator, q.sin_cos(), (sin_psi, cos_psi));
+            let all = [q, angle(cos_psi, sin_psi), angle(dot(&first, &m), dot(&first, &across))];
+            each!(|k| all[k])
+        })
+    }
+}
+
+/// The links of a spherical leg in its frame.
+struct Links<T, const D: usize> {
+    /// The elbow's axis.
+    w: [T; D],
+    /// The platform's joint.
+    v: [T; D],
+    /// What is left of three perpendicular axes at the joint: m along the elbow's motion, and `across` = v × m.
+    m: [T; D],
+    across: [T; D],
+    /// sin a sin b, the greatest |B_jj|.
+    most: Interval,
+}
+
+impl<T: Scalar, const D: usize> Links<T, D> {
+    /// At the motor's and the elbow's angles with these (sin, cos).
+    fn new(actuator: &Actuator, (sin, cos): (T, T), (sin_psi, cos_psi): (T, T)) -> Self {
+        let Actuator::Spherical { proximal: (cos_a, sin_a), distal_cos: cos_b } = *actuator else {
+            unreachable!("a platform that turns about a point has spherical legs only");
+        };
+        let sin_b = sine_of(cos_b);
+        let vector = |x: T, y: T, z: T| -> [T; D] { each!(|k| [x, y, z][k]) };
+        let w = vector(cos.scale(sin_a), sin.scale(sin_a), T::constant(cos_a));
+        let n = vector(cos.scale(cos_a), sin.scale(cos_a), T::constant(-sin_a));
+        let t = vector(-sin, cos, T::zero());
+        // From the elbow to the platform's joint.
+        let along: [T; D] = each!(|k| (cos_psi * n[k] + sin_psi * t[k]).tightened());
+        let m = each!(|k| (cos_psi * t[k] - sin_psi * n[k]).tightened());
+        let v = each!(|k| w[k].scale(cos_b) + along[k].scale(sin_b));
+        let across = each!(|k| w[k].scale(sin_b) - along[k].scale(cos_b));
+        Self { w, v, m, across, most: sin_a * sin_b }
     }
 }
 
@@ -137,7 +225,7 @@ mod tests {
         let robot = Robot::from_toml(SPHERE, "sphere.toml").unwrap();
         let mut random = Random::new(7);
         for leg in 0..3 {
-            let chart = Chart::Chain(Chain { leg });
+            let chart = Chart::Chain(Chain { leg, bend: None });
             let mut compared = 0;
             for _ in 0..1000 {
                 let y: [f64; 3] = std::array::from_fn(|_| random.within((-3.1, 3.1)));
@@ -176,11 +264,36 @@ mod tests {
         }
     }
 
+    /// A bend is the part of the whole chart next to an end of the elbow's way.
+    #[test]
+    fn bends_are_parts_of_the_whole() {
+        let robot = Robot::from_toml(SPHERE, "sphere.toml").unwrap();
+        let mut random = Random::new(9);
+        for (back, end) in [(true, std::f64::consts::PI), (false, 0.0)] {
+            let part = Chart::Chain(Chain { leg: 2, bend: Some(Bend { back, half_width: 0.3 }) });
+            let whole = Chart::Chain(Chain { leg: 2, bend: None });
+            for _ in 0..100 {
+                let y = [3.1, 0.3, 3.1].map(|end| random.within((-end, end)));
+                let z = [y[0], y[1] + end, y[2]];
+                let (here, legs) = part.at::<f64, 3, 3>(&robot, &y, |k| y[k].sin_cos());
+                let (there, same) = whole.at::<f64, 3, 3>(&robot, &z, |k| z[k].sin_cos());
+                let entries = here
+                    .rotation()
+                    .unwrap()
+                    .as_flattened()
+                    .iter()
+                    .zip(there.rotation().unwrap().as_flattened());
+                assert!(entries.into_iter().all(|(a, b)| (a - b).abs() < 1e-14));
+                assert!((legs[2].fold.unwrap().b - same[2].fold.unwrap().b).abs() < 1e-14);
+            }
+        }
+    }
+
     /// The boxes' images hold the poses of their points.
     #[test]
     fn images_hold_poses() {
         let robot = Robot::from_toml(SPHERE, "sphere.toml").unwrap();
-        let chart = Chart::Chain(Chain { leg: 1 });
+        let chart = Chart::Chain(Chain { leg: 1, bend: None });
         let mut random = Random::new(8);
         let mut bounded = 0;
         for _ in 0..500 {
