@@ -4,7 +4,7 @@ use super::{Certificate, TreeError};
 use crate::kinematics::chart::{Chain, Chart, Fold};
 use crate::num::{Interval, Scalar, dot};
 use crate::paving::AXES;
-use crate::robot::{Actuator, Leg, Limit, Platform, Robot, RobotError, Window};
+use crate::robot::{Actuator, Leg, Limit, Platform, Robot, RobotError, Window, is_line};
 
 /// Parts that do not fit together.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -212,6 +212,12 @@ fn sane(x: &Interval) -> bool {
 /// Whether a robot that was read from a file of results is one.
 pub(crate) fn check_robot(robot: &Robot) -> Result<(), Unsound> {
     Robot::new(&robot.name, robot.platform, robot.legs.clone())?;
+    holds(
+        [&robot.name, &robot.title, &robot.source, &robot.length_unit]
+            .into_iter()
+            .all(|words| is_line(words)),
+        "the name, title, source or unit of the robot has a line break, tab or other control character",
+    )?;
     let n = robot.dof();
     wanted("robot.window", robot.window.len(), n)?;
     holds(
@@ -292,6 +298,32 @@ fn is_limit(limit: &Limit, actuator: &Actuator, space: usize) -> bool {
         Limit::BaseCone { axis, half_cos } | Limit::PlatformCone { axis, half_cos } => {
             let unit = axis.iter().all(sane) && is_about(dot(axis, axis), 1.0);
             !matches!(actuator, Actuator::Spherical { .. }) && unit && sane(half_cos)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::robot::catalogue;
+
+    /// Why the five-bar, changed, is no robot.
+    fn refusal(change: impl FnOnce(&mut Robot)) -> String {
+        let mut robot = catalogue::find("five-bar").unwrap();
+        change(&mut robot);
+        check_robot(&robot).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn words_cannot_steer_a_terminal() {
+        let changes: [fn(&mut Robot); 4] = [
+            |robot| robot.name.push_str("\u{1b}[2J"),
+            |robot| robot.title.push('\n'),
+            |robot| robot.source.push('\u{7}'),
+            |robot| robot.length_unit.push('\t'),
+        ];
+        for change in changes {
+            assert!(refusal(change).contains("control character"));
         }
     }
 }

@@ -12,6 +12,7 @@ mod platform;
 mod slice;
 mod window;
 
+pub(crate) use file::is_line;
 pub use file::{FileError, Mistake, Problem};
 pub(crate) use frame::{crank_frame, rail_frame};
 pub use leg::{Actuator, BASE_FRAME, Frame, Leg, Limit, point};

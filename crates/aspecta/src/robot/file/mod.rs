@@ -10,6 +10,7 @@ mod schema;
 mod words;
 
 pub use error::{FileError, Mistake, Problem};
+pub(crate) use words::is_line;
 
 use super::{Robot, catalogue};
 use locate::Fault;

@@ -20,10 +20,15 @@ pub(super) fn set(field: &mut String, given: &Option<At<String>>) -> Result<(), 
     Ok(())
 }
 
-/// Words in one line: no control characters, which would break a table or a terminal.
+/// Words in one line.
 fn line(text: &At<String>) -> Result<&str, Fault> {
-    match text.value.contains(char::is_control) {
-        true => Err(Fault::new(&text.span, Problem::NotOneLine)),
-        false => Ok(&text.value),
+    match is_line(&text.value) {
+        true => Ok(&text.value),
+        false => Err(Fault::new(&text.span, Problem::NotOneLine)),
     }
+}
+
+/// Whether words stay in one line: no control characters, which would break a table or a terminal.
+pub(crate) fn is_line(text: &str) -> bool {
+    !text.contains(char::is_control)
 }
