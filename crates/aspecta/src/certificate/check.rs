@@ -183,7 +183,10 @@ fn check_fold(robot: &Robot, fold: &Fold) -> Result<(), Unsound> {
         Some((lo, hi)) => robot.platform.space() == 3 && -1.0 <= lo && lo < hi && hi <= 1.0,
     };
     holds(axial, "the axial range of a fold is not one, or one too many in the plane")?;
-    holds(sane(&fold.crank) && sane(&fold.rod), "a length of a fold is not finite")
+    holds(
+        sane(&fold.crank) && sane(&fold.rod),
+        "a length of a fold is not finite, beyond ±1e7, or an empty range",
+    )
 }
 
 fn check_chain(robot: &Robot, window: &Window, chain: &Chain, sheet: usize) -> Result<(), Unsound> {
@@ -236,7 +239,9 @@ pub(crate) fn check_robot(robot: &Robot) -> Result<(), Unsound> {
 /// What is wrong with a leg, if anything is.
 fn fault_of_leg(leg: &Leg, platform: Platform) -> Option<&'static str> {
     if !leg.anchor.iter().chain(&leg.attachment).chain(leg.frame.as_flattened()).all(sane) {
-        return Some("a coordinate of its points or of its frame is not finite");
+        return Some(
+            "a coordinate of its points or of its frame is not finite, beyond ±1e7, or an empty range",
+        );
     }
     if !(0..3)
         .all(|i| (0..3).all(|k| is_about(dot(&leg.frame[i], &leg.frame[k]), f64::from(u8::from(i == k)))))
@@ -266,7 +271,9 @@ fn fault_of_leg(leg: &Leg, platform: Platform) -> Option<&'static str> {
         Actuator::Spherical { proximal, distal_cos } => is_circular(proximal) && sane(distal_cos),
     };
     if !fit {
-        return Some("a link length is not positive and finite, or an angle is none");
+        return Some(
+            "a link length is not positive, not finite, beyond 1e7, or an empty range, or an angle is none",
+        );
     }
     let all = leg.limits.iter().all(|limit| is_limit(limit, &leg.actuator, platform.space()));
     (!all).then_some("a limit makes no sense, or belongs to a leg of another kind")
@@ -325,5 +332,20 @@ mod tests {
         for change in changes {
             assert!(refusal(change).contains("control character"));
         }
+    }
+
+    #[test]
+    fn ranges_that_are_none() {
+        for (lo, hi) in [(1.0, 0.0), (0.0, 2e7), (f64::NAN, 1.0)] {
+            let said = refusal(|robot| robot.legs[1].anchor[0] = Interval { lo, hi });
+            let wanted = "leg 2 of the robot: a coordinate of its points or of its frame is not finite, beyond ±1e7, \
+                          or an empty range";
+            assert_eq!(said, wanted);
+        }
+        let said = refusal(|robot| {
+            robot.legs[0].actuator =
+                Actuator::Revolute { crank: Interval { lo: 9.0, hi: 8.0 }, rod: Interval::point(5.0) };
+        });
+        assert!(said.contains("or an empty range"), "{said}");
     }
 }
