@@ -68,11 +68,13 @@ fn what_cannot_be_read_is_bad_input() {
     let directory = tempfile::tempdir().unwrap();
     let text = certificate(1).to_json().unwrap();
     let robot = stdout("robots show five-bar");
+    let more = certificate(10_usize.pow(19)).to_json().unwrap();
     let version = text.replacen("\"certificate_version\":2", "\"certificate_version\":9", 1);
     let cases = [
         (&text[..text.len() / 2], "damaged"),
         ("{}", "not a certificate"),
         (version.as_str(), "version 9"),
+        (more.as_str(), "class 0 counts 10000000000000000000 aspects, more than there are leaves"),
         (robot.as_str(), "five-bar.json`: not a certificate"),
         ("", "`aspecta analyze ROBOT --certificate FILE` writes certificates"),
     ];

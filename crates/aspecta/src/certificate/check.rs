@@ -38,6 +38,18 @@ pub enum Unsound {
         /// The index, from 0.
         index: usize,
     },
+    /// A bound beyond all that leaves can prove.
+    #[error(
+        "the claim of class {class} counts {claimed} aspects, more than there are leaves ({leaves}) to prove them"
+    )]
+    Claim {
+        /// The class.
+        class: usize,
+        /// Aspects claimed.
+        claimed: usize,
+        /// Leaves of all sheets.
+        leaves: usize,
+    },
     /// A value that cannot be used.
     #[error("{0}")]
     Value(&'static str),
@@ -76,6 +88,7 @@ impl Certificate {
         let classes = 2 * self.modes.len();
         wanted("claims", self.claims.len(), classes)?;
         self.check_sheets(classes)?;
+        self.check_claims()?;
         let class = |index: usize| {
             if index < classes { Ok(()) } else { Err(Unsound::Index { what: "class", index }) }
         };
@@ -165,6 +178,18 @@ impl Certificate {
                 Chart::Chain(chain) => check_chain(&self.robot, &self.window, chain, k)?,
             }
             sheet.tree.check(axes, classes).map_err(|error| Unsound::Tree { sheet: k, error })?;
+        }
+        Ok(())
+    }
+
+    /// Bounds that could be proved count distinct leaves. Greater ones say nothing, and their sums could overflow.
+    fn check_claims(&self) -> Result<(), Unsound> {
+        let leaves = self.leaves().count();
+        for (class, claim) in self.claims.iter().enumerate() {
+            let claimed = claim.low.max(claim.high.unwrap_or(0));
+            if claimed > leaves {
+                return Err(Unsound::Claim { class, claimed, leaves });
+            }
         }
         Ok(())
     }

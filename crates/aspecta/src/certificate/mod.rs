@@ -175,6 +175,12 @@ impl Certificate {
         Ok(certificate)
     }
 
+    /// The leaves of all sheets.
+    pub(crate) fn leaves(&self) -> impl Iterator<Item = &Leaf> {
+        let entries = self.sheets.iter().flat_map(|sheet| &sheet.tree.0);
+        entries.filter_map(|entry| if let Entry::Leaf(leaf) = entry { Some(leaf) } else { None })
+    }
+
     /// The text of its file.
     ///
     /// # Errors

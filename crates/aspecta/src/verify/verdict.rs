@@ -1,6 +1,6 @@
 //! What a check found.
 
-use crate::certificate::{Certificate, Claim, Entry};
+use crate::certificate::{Certificate, Claim};
 use crate::kinematics::WorkingMode;
 use serde::Serialize;
 
@@ -99,8 +99,7 @@ impl Verdict {
         let mut claims = Counts::default();
         let mut leaves = 0;
         let classes = 2 * certificate.modes.len();
-        for entry in certificate.sheets.iter().flat_map(|sheet| &sheet.tree.0) {
-            let Entry::Leaf(leaf) = entry else { continue };
+        for leaf in certificate.leaves() {
             leaves += 1;
             let count = |set: u16| set.count_ones() as usize;
             claims.covered += usize::from(leaf.covered);
