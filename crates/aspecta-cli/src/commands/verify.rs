@@ -100,7 +100,10 @@ fn print(out: &mut dyn Write, certificate: &Certificate, verdict: &Verdict) -> R
     }
     match verdict.is_verified() {
         true => writeln!(out, "verified: {}{}", total(&certificate.claims), restriction(certificate))?,
-        false if verdict.complete => writeln!(out, "not verified")?,
+        false if verdict.is_refuted() => writeln!(out, "not verified: a claim is proved wrong")?,
+        false if verdict.complete => {
+            writeln!(out, "not verified: not all claims are proved with the effort spent")?;
+        }
         false => {}
     }
     Ok(())

@@ -2,7 +2,7 @@
 
 use crate::{aspecta, json, stdout};
 use aspecta::aspect::Scale;
-use aspecta::certificate::{Certificate, Claim};
+use aspecta::certificate::{Certificate, Claim, Entry};
 use aspecta::paving::{Budget, Control, Paving};
 use aspecta::robot::{Robot, catalogue};
 use std::path::PathBuf;
@@ -51,7 +51,27 @@ fn what_is_not_proved_is_not_verified() {
         text.contains("fault: class 0 (++, det A > 0): at least 3 aspects are claimed, 1 are proved"),
         "{text}"
     );
-    assert!(text.ends_with("not verified\n"), "{text}");
+    assert!(text.ends_with("not verified: not all claims are proved with the effort spent\n"), "{text}");
+}
+
+/// The first leaf, out of reach, is claimed inside class 0.
+#[test]
+fn what_is_proved_wrong_is_said_to_be() {
+    let directory = tempfile::tempdir().unwrap();
+    let mut wrong = certificate(1);
+    let leaf = wrong.sheets[0].tree.0.iter_mut().find_map(|entry| match entry {
+        Entry::Leaf(leaf) if leaf.undecided == 0 => Some(leaf),
+        _ => None,
+    });
+    leaf.unwrap().inside = 1;
+    let path = file(&directory, &wrong.to_json().unwrap());
+    let output = aspecta("verify").arg(&path).output().unwrap();
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(output.status.code(), Some(1), "{text}");
+    assert!(text.ends_with("not verified: a claim is proved wrong\n"), "{text}");
+    let output = aspecta("verify --json").arg(&path).output().unwrap();
+    let verdict: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(verdict["faults"][0]["is_wrong"], true);
 }
 
 #[test]

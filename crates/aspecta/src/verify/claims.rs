@@ -37,6 +37,8 @@ pub(super) struct Unproved {
     /// The class, if the claim is about one.
     pub class: Option<usize>,
     pub reason: &'static str,
+    /// Whether it is proved wrong.
+    pub is_wrong: bool,
 }
 
 /// The sign of det A of a class.
@@ -74,7 +76,7 @@ pub(super) fn prove<const D: usize>(
         if spent >= EFFORT {
             let reason = if needs.covered { COVERED } else { doubt };
             let class = if needs.covered { None } else { needs.first() };
-            return Err(Unproved { class, reason });
+            return Err(Unproved { class, reason, is_wrong: false });
         }
         let [low, high] = setting.halves(&y);
         open.extend([(high, needs), (low, needs)]);
@@ -115,7 +117,7 @@ fn settle<const D: usize>(
             let signed = det * Interval::point(sign_of(class));
             let inside = existence == Existence::Everywhere && signed.is_positive();
             let outside = existence == Existence::Nowhere || signed.hi <= 0.0;
-            let wrong = |reason| Err(Unproved { class: Some(class), reason });
+            let wrong = |reason| Err(Unproved { class: Some(class), reason, is_wrong: true });
             match (needs.inside & bit != 0, needs.outside & bit != 0) {
                 (true, _) if outside => return wrong("claimed inside, but it is not"),
                 (_, true) if inside => return wrong("claimed outside, but it is inside"),

@@ -46,31 +46,39 @@ pub(super) fn check<const D: usize>(
     for (class, (&proved, &claimed)) in counted.iter().zip(&certificate.claims).enumerate() {
         let (mode, det_a) = (certificate.modes[class / 2], if class % 2 == 0 { 1 } else { -1 });
         verdict.classes.push(Checked { mode, det_a, claimed, proved });
-        if claimed.low > proved.low {
-            let reason = format!("at least {} aspects are claimed, {} are proved", claimed.low, proved.low);
-            verdict.faults.push(Fault::of_class(class, reason));
-        }
-        match (claimed.high, proved.high) {
-            (_, Some(high)) if high < proved.low => {
-                let reason = format!(
-                    "at least {} aspects are proved and at most {high}: the robot or the checker is not sound",
-                    proved.low
-                );
-                verdict.faults.push(Fault::of_class(class, reason));
-            }
-            (Some(high), None) => {
-                let reason = format!(
-                    "at most {high} aspects are claimed, but leaves are undecided, not covered and not summitless"
-                );
-                verdict.faults.push(Fault::of_class(class, reason));
-            }
-            (Some(high), Some(found)) if high < found => {
-                let reason = format!("at most {high} aspects are claimed, but {found} are not excluded");
-                verdict.faults.push(Fault::of_class(class, reason));
-            }
-            _ => {}
-        }
+        verdict.faults.extend(faults(class, claimed, proved));
     }
+}
+
+/// What is claimed of the number of aspects beyond what is proved; it is wrong if the other bound that is proved contradicts it.
+fn faults(class: usize, claimed: Claim, proved: Claim) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    if let Some(high) = proved.high.filter(|high| *high < proved.low) {
+        let low = proved.low;
+        let reason = format!(
+            "both at least {low} and at most {high} aspects are proved: robot or checker are not sound"
+        );
+        return vec![Fault::of_class(class, reason)];
+    }
+    if claimed.low > proved.low {
+        let reason = format!("at least {} aspects are claimed, {} are proved", claimed.low, proved.low);
+        let is_wrong = proved.high.is_some_and(|high| claimed.low > high);
+        faults.push(Fault { is_wrong, ..Fault::of_class(class, reason) });
+    }
+    let reason = match (claimed.high, proved.high) {
+        (Some(high), None) => {
+            format!(
+                "at most {high} aspects are claimed, but leaves are undecided, not covered and not summitless"
+            )
+        }
+        (Some(high), Some(found)) if high < found => {
+            format!("at most {high} aspects are claimed, but {found} are not excluded")
+        }
+        _ => return faults,
+    };
+    let is_wrong = claimed.high.is_some_and(|high| high < proved.low);
+    faults.push(Fault { is_wrong, ..Fault::of_class(class, reason) });
+    faults
 }
 
 impl<'a> Leaves<'a> {

@@ -135,7 +135,7 @@ fn sheets(certificate: &Certificate) -> Vec<Sheet<'_>> {
 /// What is wrong with the window and the constants of the charts, whose boxes are not looked at before.
 fn check_windows(certificate: &Certificate, charts: &[&Chart], verdict: &mut Verdict) {
     if let Some(reason) = charts::fault_of_window(certificate) {
-        verdict.faults.push(Fault::of_sheet(0, reason));
+        verdict.faults.push(Fault { is_wrong: true, ..Fault::of_sheet(0, reason) });
     }
     for (k, chart) in charts.iter().enumerate() {
         if let Chart::Fold(fold) = chart
@@ -193,6 +193,7 @@ fn check_leaves<const D: usize>(
                         class: unproved.class,
                         bounds: extent,
                         reason: unproved.reason.into(),
+                        is_wrong: unproved.is_wrong,
                     })
                 }
             }

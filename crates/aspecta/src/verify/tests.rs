@@ -315,6 +315,29 @@ fn bounds_are_checked() {
     assert!(checked(&weaker).is_verified());
 }
 
+/// What is proved wrong is told from what is only not proved.
+#[test]
+fn wrong_claims_are_told_from_unproved_ones() {
+    let verdict = |original: &Certificate, change: fn(&mut Certificate)| {
+        let mut certificate = original.clone();
+        change(&mut certificate);
+        let verdict = checked(&certificate);
+        assert!(!verdict.faults.is_empty());
+        verdict
+    };
+    let wrong = |original, change| assert!(verdict(original, change).is_refuted());
+    let unproved = |original, change| assert!(!verdict(original, change).is_refuted());
+    // Class 3 has two aspects.
+    wrong(&FIVE_BAR, |c| c.claims[3].low = 3);
+    wrong(&FIVE_BAR, |c| c.claims[3].high = Some(1));
+    wrong(&COARSE, |c| leaf(c, 0, |leaf| leaf.undecided == 0).inside |= 1 << 4);
+    wrong(&COARSE, |c| c.window.ranges[0].0 += 1.0);
+    unproved(&COARSE, |c| c.claims[0].low = 3);
+    unproved(&COARSE, |c| c.claims[0].high = Some(1));
+    unproved(&FOLDED, |c| c.seams.clear());
+    unproved(&FIVE_BAR, |c| deny_summits(c, 0, 1));
+}
+
 #[test]
 fn covered_leaves_are_covered() {
     refuted(&COARSE, "claimed covered, but", |c| {

@@ -68,15 +68,17 @@ pub struct Fault {
     pub bounds: Vec<(f64, f64)>,
     /// What is wrong.
     pub reason: String,
+    /// Whether the claim is proved wrong; else it could not be proved with the effort spent.
+    pub is_wrong: bool,
 }
 
 impl Fault {
     pub(super) fn of_sheet(sheet: usize, reason: String) -> Self {
-        Self { sheet: Some(sheet), leaf: None, class: None, bounds: Vec::new(), reason }
+        Self { sheet: Some(sheet), leaf: None, class: None, bounds: Vec::new(), reason, is_wrong: false }
     }
 
     pub(super) fn of_class(class: usize, reason: String) -> Self {
-        Self { sheet: None, leaf: None, class: Some(class), bounds: Vec::new(), reason }
+        Self { sheet: None, leaf: None, class: Some(class), bounds: Vec::new(), reason, is_wrong: false }
     }
 
     /// A line for people; `modes` are those of the certificate.
@@ -123,6 +125,11 @@ impl Verdict {
             seams,
             classes: vec![],
         }
+    }
+
+    /// Whether a claim of the certificate is proved wrong.
+    pub fn is_refuted(&self) -> bool {
+        self.faults.iter().any(|fault| fault.is_wrong)
     }
 
     /// Whether all that the certificate claims is proved.
