@@ -1,12 +1,6 @@
 //! Words that go with numbers.
 
-use std::fmt::Display;
-
-/// `1 box`, `2 boxes`: how many there are of what.
-pub fn count<N: Display + PartialEq + From<u8>>(n: N, one: &str, many: &str) -> String {
-    let what = if n == N::from(1) { one } else { many };
-    format!("{n} {what}")
-}
+pub use aspecta::num::count;
 
 /// How many there are, by the bounds that are proved: `1 box`, `2 to 3 boxes`, `at least 2 boxes`.
 pub fn between(low: usize, high: Option<usize>, one: &str, many: &str) -> String {
@@ -19,13 +13,7 @@ pub fn between(low: usize, high: Option<usize>, one: &str, many: &str) -> String
 
 #[cfg(test)]
 mod tests {
-    use super::{between, count};
-
-    #[test]
-    fn one_is_no_plural() {
-        let counted = [0usize, 1, 2, 11].map(|n| count(n, "leaf", "leaves"));
-        assert_eq!(counted, ["0 leaves", "1 leaf", "2 leaves", "11 leaves"]);
-    }
+    use super::between;
 
     #[test]
     fn bounds_that_meet_are_a_number() {

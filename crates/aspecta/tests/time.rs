@@ -159,10 +159,9 @@ fn what_cannot_be_timed_is_refused() {
     let line = piece([vec![0.0, 0.0], vec![1.0, 1.0]]);
     let refused = |pieces: &[Piece], limit: JointLimits| trajectory(pieces, &limit).unwrap_err();
     let one = std::slice::from_ref(&line);
-    assert_eq!(
-        refused(one, limits(&[1.0], &[1.0, 1.0])),
-        TimeError::Count { what: "speed", wanted: 2, found: 1 }
-    );
+    let few = TimeError::Count { what: "speed", wanted: 2, found: 1 };
+    assert_eq!(few.to_string(), "1 limit of speed given, but there are 2 joints");
+    assert_eq!(refused(one, limits(&[1.0], &[1.0, 1.0])), few);
     let zero = TimeError::Limit { what: "acceleration", joint: 2, value: 0.0 };
     assert_eq!(refused(one, limits(&[1.0, 1.0], &[1.0, 0.0])), zero);
     let both = limits(&[1.0, 1.0], &[1.0, 1.0]);

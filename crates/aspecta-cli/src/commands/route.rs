@@ -9,6 +9,7 @@ use aspecta::motion::modes::Route;
 use aspecta::motion::plan::Plan;
 use aspecta::motion::{Clearance, Joined, Least, PathCheck, PathOptions, check_poses};
 use aspecta::robot::Robot;
+use aspecta_cli::words::count;
 use std::io::Write;
 
 /// The stretches of a route as they are driven: each with the way to its crossing and back.
@@ -70,8 +71,9 @@ pub(super) fn print_table(
     let word = match (is_proved, route.crossings.len()) {
         (false, _) => "not proved".into(),
         (true, 0) => "yes, certified, limits and margins included".into(),
-        (true, count) => format!(
-            "no parallel one, and serial ones at the {count} changes of posture only: certified, limits and margins included"
+        (true, changes) => format!(
+            "no parallel one, and serial ones only at {}: certified, limits and margins included",
+            count(changes, "change of posture", "changes of posture")
         ),
     };
     writeln!(out, "singularity-free  {word}")?;

@@ -48,6 +48,8 @@ fn a_plan_goes_through_three_modes() {
     assert!(shown.matches("through its serial singularity").count() >= 2, "{shown}");
     let plan = json("plan five-bar --from 4,7 --to 4,7 --mode ++ --to-mode -- --budget depth=9 --json");
     assert!(plan["stretches"].as_array().unwrap().len() >= 3, "{plan}");
+    let once = stdout("plan five-bar --from 4,7 --to 4,7 --mode ++ --to-mode +- --budget depth=9");
+    assert!(once.contains("serial ones only at 1 change of posture: certified"), "{once}");
 }
 
 /// The table of a motion: its header, and rows that belong together.

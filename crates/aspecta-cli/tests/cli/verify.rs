@@ -48,7 +48,7 @@ fn what_is_not_proved_is_not_verified() {
     let text = String::from_utf8_lossy(&output.stdout);
     assert_eq!(output.status.code(), Some(1), "{text}");
     assert!(
-        text.contains("fault: class 0 (++, det A > 0): at least 3 aspects are claimed, 1 are proved"),
+        text.contains("fault: class 0 (++, det A > 0): claimed to have at least 3 aspects, but proved to have at least 1"),
         "{text}"
     );
     assert!(text.ends_with("not verified: not all claims are proved with the effort spent\n"), "{text}");

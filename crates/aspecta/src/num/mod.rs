@@ -27,6 +27,7 @@ pub use jet::Jet;
 pub use pack::{LANES, Mask, Pack};
 pub(crate) use random::Random;
 pub use slope::{Enclosure, Slope};
+pub use written::count;
 pub(crate) use written::written;
 
 use std::ops::{Add, Div, Mul, Neg, Sub};

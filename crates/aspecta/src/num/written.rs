@@ -1,5 +1,13 @@
 //! Numbers in messages.
 
+use std::fmt::Display;
+
+/// `1 box`, `2 boxes`: how many there are of what.
+pub fn count<N: Display + PartialEq + From<u8>>(n: N, one: &str, many: &str) -> String {
+    let what = if n == N::from(1) { one } else { many };
+    format!("{n} {what}")
+}
+
 /// A number as people write it: plain, or with a power of ten where its digits would fill lines. Zero has no sign.
 pub(crate) fn written(x: f64) -> String {
     let size = x.abs();
@@ -9,7 +17,13 @@ pub(crate) fn written(x: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::written;
+    use super::{count, written};
+
+    #[test]
+    fn one_is_no_plural() {
+        let counted = [0usize, 1, 2, 11].map(|n| count(n, "leaf", "leaves"));
+        assert_eq!(counted, ["0 leaves", "1 leaf", "2 leaves", "11 leaves"]);
+    }
 
     #[test]
     fn no_number_fills_lines() {

@@ -6,7 +6,7 @@ use super::place::Place;
 use super::{Checked, Fault, Sheet, Verdict, charts};
 use crate::certificate::{Certificate, Claim, Leaf};
 use crate::kinematics::chart::Chart;
-use crate::num::Interval;
+use crate::num::{self, Interval};
 use crate::paving::{ClassSet, Control, Progress};
 use rayon::prelude::*;
 use std::f64::consts::FRAC_PI_2;
@@ -52,6 +52,7 @@ pub(super) fn check<const D: usize>(
 
 /// What is claimed of the number of aspects beyond what is proved; it is wrong if the other bound that is proved contradicts it.
 fn faults(class: usize, claimed: Claim, proved: Claim) -> Vec<Fault> {
+    let aspects = |n: usize| num::count(n, "aspect", "aspects");
     let mut faults = Vec::new();
     if let Some(high) = proved.high.filter(|high| *high < proved.low) {
         let low = proved.low;
@@ -61,18 +62,23 @@ fn faults(class: usize, claimed: Claim, proved: Claim) -> Vec<Fault> {
         return vec![Fault::of_class(class, reason)];
     }
     if claimed.low > proved.low {
-        let reason = format!("at least {} aspects are claimed, {} are proved", claimed.low, proved.low);
+        let reason = format!(
+            "claimed to have at least {}, but proved to have at least {}",
+            aspects(claimed.low),
+            proved.low
+        );
         let is_wrong = proved.high.is_some_and(|high| claimed.low > high);
         faults.push(Fault { is_wrong, ..Fault::of_class(class, reason) });
     }
     let reason = match (claimed.high, proved.high) {
         (Some(high), None) => {
             format!(
-                "at most {high} aspects are claimed, but leaves are undecided, not covered and not summitless"
+                "claimed to have at most {}, but leaves are undecided, not covered and not summitless",
+                aspects(high)
             )
         }
         (Some(high), Some(found)) if high < found => {
-            format!("at most {high} aspects are claimed, but {found} are not excluded")
+            format!("claimed to have at most {}, but proved to have at most {found}", aspects(high))
         }
         _ => return faults,
     };

@@ -133,8 +133,12 @@ fn chains_are_checked() {
     refuted(&SPHERE, "claimed summitless, but P may have a maximum here", |c| {
         deny_summits(c, 1, !0);
     });
-    refuted(&SPHERE, "at least 3 aspects are claimed, 2 are proved", |c| c.claims[0].low = 3);
-    refuted(&SPHERE, "at most 1 aspects are claimed, but 2 are not excluded", |c| c.claims[0].high = Some(1));
+    refuted(&SPHERE, "claimed to have at least 3 aspects, but proved to have at least 2", |c| {
+        c.claims[0].low = 3
+    });
+    refuted(&SPHERE, "claimed to have at most 1 aspect, but proved to have at most 2", |c| {
+        c.claims[0].high = Some(1)
+    });
     let cut = |c: &mut Certificate| c.robot.window[0] = Some((-1.0, 1.0));
     refuted(&SPHERE, "the window is not the one", cut);
 }
@@ -290,7 +294,7 @@ fn good_paths_are_accepted() {
 
 #[test]
 fn seams_are_checked() {
-    refuted(&FOLDED, "are not excluded", |c| c.seams.clear());
+    refuted(&FOLDED, "but proved to have at most", |c| c.seams.clear());
     refuted(&FOLDED, "seam 0: the point lies in no inside leaf", |c| c.seams[0].class ^= 1);
     refuted(&FOLDED, "it is not proved to lie in an inside leaf of sheet 0 as well", |c| {
         let bit = 1 << c.seams[0].class;
@@ -305,8 +309,10 @@ fn seams_are_checked() {
 
 #[test]
 fn bounds_are_checked() {
-    refuted(&FIVE_BAR, "at least 3 aspects are claimed, 2 are proved", |c| c.claims[3].low = 3);
-    refuted(&FIVE_BAR, "at most 1 aspects are claimed, but 2 are not excluded", |c| {
+    refuted(&FIVE_BAR, "claimed to have at least 3 aspects, but proved to have at least 2", |c| {
+        c.claims[3].low = 3
+    });
+    refuted(&FIVE_BAR, "claimed to have at most 1 aspect, but proved to have at most 2", |c| {
         c.claims[3].high = Some(1)
     });
     refuted(&COARSE, "but leaves are undecided", |c| c.claims[0].high = Some(1));

@@ -247,6 +247,8 @@ fn what_is_not_joined_within_the_budget_is_said_to_be_undecided() {
         panic!("{none:?}")
     };
     assert!(!refusal.is_proof() && !refusal.is_bad_input());
+    let one = Refusal::NotJoined { samples: 1, seconds: 0.0, margins: Margins::default() };
+    assert!(one.to_string().contains("within the budget (1 sample, 0.0 s)"), "{one}");
 }
 
 /// Every edge is proved with more effort, and by samples; components hang together by them.

@@ -2,6 +2,7 @@
 
 use crate::kinematics::{KinematicsError, WorkingMode};
 use crate::motion::follow::StartError;
+use crate::num::{self, written};
 
 /// Why a path cannot be checked at all.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -33,7 +34,7 @@ pub enum PathError {
         known: String,
     },
     /// Margins that no configuration keeps.
-    #[error("{of} cannot be kept at or above {value}: margins are at least 0 (none) and below {below}")]
+    #[error("{of} cannot be kept at or above {}: margins are at least 0 (none) and below {below}", written(*.value))]
     Margin {
         /// The margin asked for.
         value: f64,
@@ -58,7 +59,8 @@ pub enum PathError {
     Unjoined,
     /// Nothing tells which direct solution is meant.
     #[error(
-        "the first joint vector has {count} direct solutions, and the path starts in one of them: say in which, by its pose\n{list}"
+        "the first joint vector has {}, and the path starts in one of them: say in which, by its pose\n{list}",
+        num::count(*.count, "direct solution", "direct solutions")
     )]
     WhichSolution {
         /// How many.

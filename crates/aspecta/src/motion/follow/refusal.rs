@@ -1,6 +1,7 @@
 //! Why a step is refused, without allocating.
 
 use crate::kinematics::KinematicsError;
+use crate::num::{count, written};
 use serde::Serialize;
 
 /// A vector that does not fit the robot.
@@ -8,7 +9,7 @@ use serde::Serialize;
 #[serde(rename_all = "kebab-case")]
 pub enum BadInput {
     /// Wrong number of coordinates.
-    #[error("{found} numbers given, but the robot has {wanted} coordinates")]
+    #[error("{} given, but the robot has {wanted} coordinates", count(*.found, "number", "numbers"))]
     Length {
         /// Number wanted.
         wanted: usize,
@@ -16,7 +17,7 @@ pub enum BadInput {
         found: usize,
     },
     /// NaN, infinity, or beyond ±10⁷.
-    #[error("coordinate {index} is {value}: give a finite number within ±1e7")]
+    #[error("coordinate {index} is {}: give a finite number within ±1e7", written(*.value))]
     Number {
         /// Index from 1.
         index: usize,
@@ -24,7 +25,7 @@ pub enum BadInput {
         value: f64,
     },
     /// A strut's length must be positive.
-    #[error("joint coordinate {leg} is {value}, but leg {leg} is a strut, whose length must be positive")]
+    #[error("joint coordinate {leg} is {}, but leg {leg} is a strut, whose length must be positive", written(*.value))]
     StrutLength {
         /// Leg number, from 1.
         leg: usize,

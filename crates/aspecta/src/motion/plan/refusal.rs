@@ -5,6 +5,7 @@ use crate::kinematics::demand::{Demand, Margins};
 use crate::kinematics::modal::Constraint;
 use crate::kinematics::path::{Along, Curve, along};
 use crate::kinematics::{KinematicsError, WorkingMode};
+use crate::num::count;
 use crate::robot::{Robot, Window};
 use serde::Serialize;
 use std::fmt;
@@ -102,7 +103,8 @@ pub enum Refusal {
     },
     /// Neither a path nor a proof that there is none, by a roadmap ([`crate::motion::explore`]).
     #[error(
-        "undecided: could not be joined within the budget ({samples} samples, {seconds:.1} s){}, and no path is excluded",
+        "undecided: could not be joined within the budget ({}, {seconds:.1} s){}, and no path is excluded",
+        count(*.samples, "sample", "samples"),
         if .margins.are_any() { " with these margins" } else { "" }
     )]
     NotJoined {

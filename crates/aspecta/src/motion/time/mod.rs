@@ -16,6 +16,7 @@ pub use trajectory::{Binding, Limited, Row, Trajectory};
 use crate::kinematics::WorkingMode;
 use crate::motion::PathCheck;
 use crate::motion::check::Joined;
+use crate::num::{count, written};
 
 /// A configuration on a path.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,7 +50,7 @@ pub struct JointLimits {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TimeError {
     /// A limit is not a positive number.
-    #[error("the {what} limit of joint {joint} is {value}: give a positive number")]
+    #[error("the {what} limit of joint {joint} is {}: give a positive number", written(*.value))]
     Limit {
         /// `speed` or `acceleration`.
         what: &'static str,
@@ -59,7 +60,7 @@ pub enum TimeError {
         value: f64,
     },
     /// Wrong number of limits.
-    #[error("{found} limits of {what} given, but there are {wanted} joints")]
+    #[error("{} of {what} given, but there are {wanted} joints", count(*.found, "limit", "limits"))]
     Count {
         /// `speed` or `acceleration`.
         what: &'static str,
