@@ -58,12 +58,21 @@ impl Verify {
 /// The certificate in a file, which may be another kind of file.
 fn certificate(path: &Path) -> Result<Certificate, Failure> {
     Certificate::load(path).map_err(|error| match error {
+        CertificateError::Form(_) if is_robot_file(path) => Failure::Input(format!(
+            "`{0}`: a robot file, not a certificate; `aspecta analyze {0} --certificate FILE` writes one",
+            path.display()
+        )),
         CertificateError::Form(_) => Failure::Input(format!(
             "`{}`: {error}; `aspecta analyze ROBOT --certificate FILE` writes certificates",
             path.display()
         )),
         other => other.into(),
     })
+}
+
+/// Whether a file that is no JSON is a robot file, by its name if it has mistakes.
+fn is_robot_file(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension == "toml") || Robot::load(path).is_ok()
 }
 
 /// Whether two robots are the same for the arithmetic.

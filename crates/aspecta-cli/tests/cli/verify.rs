@@ -95,7 +95,7 @@ fn what_cannot_be_read_is_bad_input() {
         ("{}", "not a certificate"),
         (version.as_str(), "version 9"),
         (more.as_str(), "class 0 counts 10000000000000000000 aspects, more than there are leaves"),
-        (robot.as_str(), "five-bar.json`: not a certificate"),
+        (robot.as_str(), "five-bar.json`: a robot file, not a certificate; `aspecta analyze "),
         ("", "`aspecta analyze ROBOT --certificate FILE` writes certificates"),
     ];
     for (text, complaint) in cases {
@@ -104,6 +104,12 @@ fn what_cannot_be_read_is_bad_input() {
         assert_eq!(output.status.code(), Some(2), "{message}");
         assert!(message.contains(complaint) && output.stdout.is_empty(), "{message}");
     }
+    let path = directory.path().join("five-bar.toml");
+    std::fs::write(&path, robot.replacen("crank", "krank", 1)).unwrap();
+    let mistaken = aspecta("verify").arg(&path).output().unwrap();
+    assert!(
+        String::from_utf8_lossy(&mistaken.stderr).contains("five-bar.toml`: a robot file, not a certificate")
+    );
     let missing = aspecta("verify no-such-file.json").output().unwrap();
     assert_eq!(missing.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&missing.stderr).contains("no-such-file.json"));
