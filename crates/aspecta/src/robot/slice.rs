@@ -118,7 +118,8 @@ impl Robot {
     fn end_pitch(&self, window: &mut Window) {
         let Some([roll, pitch, yaw]) = self.platform.turns() else { return };
         let is_held = |k: usize| window.ranges[k].0 == window.ranges[k].1;
-        if !(window.glued[roll] && window.glued[yaw]) && !is_held(pitch) {
+        let goes_on = window.glued[roll] && window.glued[yaw];
+        if !goes_on && !is_held(pitch) {
             window.cut[pitch] = (true, true);
         }
     }
