@@ -6,8 +6,8 @@ use super::place::{Coordinates, Place, Setting};
 use crate::certificate::Certificate;
 use crate::kinematics::chart::{Bend, Chain, Chart, Fold};
 use crate::num::{Interval, Scalar};
-use crate::paving::ClassSet;
 use crate::robot::{Actuator, Platform, Robot, Window};
+use rayon::prelude::*;
 
 /// The window of a chart, given that of the poses.
 pub(super) fn window_of(chart: &Chart, poses: &Window) -> Window {
@@ -133,11 +133,27 @@ pub(super) fn images<const D: usize>(
 }
 
 /// Most times a face is halved to see what it touches.
-const HALVINGS: u32 = 12;
+const HALVINGS: u32 = 4;
 
-/// The leaves of the base that a leaf of a later sheet may meet on the outer faces of its chart. They are not covered and have a class in
+/// Per leaf of the base, whether a chart may hold some of its configurations and not all.
+pub(super) fn partly_in<const D: usize>(base: &Sheet<'_>, chart: &Chart) -> Vec<bool> {
+    let is_partly_in = |leaf: usize| {
+        let claims = base.cells.leaves[leaf].claims;
+        !claims.covered
+            && claims.inside | claims.undecided != 0
+            && !Place::<D>::new(&base.setting, base.cells.of(leaf)).is_clear_of(chart)
+    };
+    (0..base.cells.leaves.len()).into_par_iter().map(is_partly_in).collect()
+}
+
+/// The leaves of the base that a leaf of a later sheet may meet on the outer faces of its chart, of those that are `partly` in it. They have a class in
 /// common with it.
-pub(super) fn met_outside<const D: usize>(sheet: &Sheet<'_>, leaf: usize, base: &Sheet<'_>) -> Vec<usize> {
+pub(super) fn met_outside<const D: usize>(
+    sheet: &Sheet<'_>,
+    leaf: usize,
+    base: &Sheet<'_>,
+    partly: &[bool],
+) -> Vec<usize> {
     let Sheet { setting, cells } = sheet;
     let claims = cells.leaves[leaf].claims;
     let y = cells.of(leaf);
@@ -154,7 +170,11 @@ pub(super) fn met_outside<const D: usize>(sheet: &Sheet<'_>, leaf: usize, base: 
         for (_, end) in [(low, y[k].lo), (high, y[k].hi)].into_iter().filter(|(outer, _)| *outer) {
             let mut face = y;
             face[k] = Interval::point(end);
-            meet::<D>(setting, &face, claims.inside | claims.undecided, base, HALVINGS, &mut found);
+            let matters = |other: usize| {
+                let others = base.cells.leaves[other].claims;
+                partly[other] && (others.inside | others.undecided) & (claims.inside | claims.undecided) != 0
+            };
+            meet::<D>(setting, &face, base, &matters, HALVINGS, &mut found);
         }
     }
     found.sort_unstable();
@@ -165,8 +185,8 @@ pub(super) fn met_outside<const D: usize>(sheet: &Sheet<'_>, leaf: usize, base: 
 fn meet<const D: usize>(
     setting: &Setting<'_>,
     face: &Coordinates,
-    classes: ClassSet,
     base: &Sheet<'_>,
+    matters: &impl Fn(usize) -> bool,
     halvings: u32,
     found: &mut Vec<usize>,
 ) {
@@ -174,8 +194,7 @@ fn meet<const D: usize>(
     let mut small = true;
     for image in images::<D>(setting, face, base.setting.chart) {
         base.cells.meeting(&image, &mut |leaf| {
-            let claims = base.cells.leaves[leaf].claims;
-            if !claims.covered && (claims.inside | claims.undecided) & classes != 0 {
+            if matters(leaf) {
                 let cell = base.cells.of(leaf);
                 small &= (0..image.len()).all(|k| image[k].width() <= 0.5 * cell[k].width());
                 here.push(leaf);
@@ -187,6 +206,6 @@ fn meet<const D: usize>(
         return;
     }
     let [low, high] = setting.halves(face);
-    meet::<D>(setting, &low, classes, base, halvings - 1, found);
-    meet::<D>(setting, &high, classes, base, halvings - 1, found);
+    meet::<D>(setting, &low, base, matters, halvings - 1, found);
+    meet::<D>(setting, &high, base, matters, halvings - 1, found);
 }

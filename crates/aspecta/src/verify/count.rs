@@ -98,9 +98,12 @@ impl<'a> Leaves<'a> {
         let mut leaves =
             Self { sheets, base, first, all, touching: vec![], across: vec![], poles: Default::default() };
         leaves.touching = leaves.pairs(|s, leaf| leaves.neighbours(s, leaf));
+        let later = charts::of(certificate).into_iter().skip(base);
+        let partly: Vec<Vec<bool>> =
+            later.map(|chart| charts::partly_in::<D>(&sheets[base], chart)).collect();
         leaves.across = leaves.pairs(|s, leaf| {
-            let met = |leaf| charts::met_outside::<D>(&sheets[s], leaf, &sheets[base]);
-            let met = if s > base { met(leaf) } else { Vec::new() };
+            let Some(partly) = s.checked_sub(base + 1).map(|k| &partly[k]) else { return Vec::new() };
+            let met = charts::met_outside::<D>(&sheets[s], leaf, &sheets[base], partly);
             met.into_iter().map(|other| leaves.first[base] + other).collect()
         });
         let varies = |k: usize| certificate.window.ranges[k].0 < certificate.window.ranges[k].1;
