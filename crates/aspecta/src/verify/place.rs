@@ -272,7 +272,7 @@ impl<'a, const D: usize> Place<'a, D> {
         }
     }
 
-    /// How far beyond the boundary of a bend's chart v is along the motor's axis: w·v = cos a cos b − sin a sin b cos ψ, ψ being the elbow's angle.
+    /// How far beyond the boundary of a bend's chart v is along the motor's axis e: e·v = cos a cos b − sin a sin b cos ψ, ψ being the elbow's angle.
     fn bend_margin(&self, leg: usize, bend: &Bend) -> Interval {
         let Actuator::Spherical { proximal: (cos_a, sin_a), distal_cos: cos_b } =
             self.setting.robot.legs[leg].actuator

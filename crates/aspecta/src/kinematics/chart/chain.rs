@@ -33,8 +33,8 @@ pub struct Chain {
 
 /// The configurations in which the elbow is near an end of its way. The chart's second coordinate is then ψ less ψ₀, 0 or π.
 ///
-/// It covers exactly the orientations with ±w_j·v_j ≥ ±cos a cos b + sin a sin b cos(half width), + for ψ₀ = π, since
-/// w_j·v_j = cos a cos b − sin a sin b cos ψ, w_j being the motor's axis.
+/// It covers exactly the orientations with ±e·v ≥ ±cos a cos b + sin a sin b cos(half width), + for ψ₀ = π, since
+/// e·v = cos a cos b − sin a sin b cos ψ, e being the motor's axis.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bend {
