@@ -3,6 +3,7 @@
 
 use aspecta::aspect::{Analysis, DetSign, Options, Place, analyze};
 use aspecta::kinematics::WorkingMode;
+use aspecta::kinematics::chart::Chart;
 use aspecta::kinematics::demand::Demand;
 use aspecta::kinematics::modal::Constraint;
 use aspecta::kinematics::path::{Along, Curve, along};
@@ -725,5 +726,18 @@ fn a_run_cancelled_half_way_is_sound() {
         let dice: Vec<f64> = (0..4).map(|k| ((i * 4 + k) as f64 * 0.618_034) % 1.0).collect();
         let x = pose_in(&paving, at, &mut Dice(dice.iter()));
         check_box(&robot, &paving.nodes[at as usize], &paving, &x, &mut unseen);
+    }
+}
+
+/// However deep the boxes are: 2^78 of them fill a window in space.
+#[test]
+fn the_smallest_boxes_have_a_measure() {
+    let robot = catalogue::find("spherical-3-rrr").unwrap();
+    let window = robot.slice(&[]).unwrap();
+    let whole: f64 = window.ranges.iter().map(|r| r.1 - r.0).product();
+    let paving = Paving::blank(Chart::Pose, window, &robot.working_modes());
+    for depth in 0..=26 {
+        let parts = 8f64.powi(depth as i32);
+        assert!((paving.measure(depth) * parts / whole - 1.0).abs() < 1e-12, "{depth}");
     }
 }

@@ -115,7 +115,8 @@ impl Paving {
     pub fn measure(&self, depth: u32) -> f64 {
         let whole: f64 =
             self.axes.iter().map(|&k| self.window.ranges[k].1 - self.window.ranges[k].0).product();
-        whole / (1u64 << (self.axes.len() as u32 * depth)) as f64
+        // 2^(M depth) is beyond whole numbers of 64 bits from depth 22 on.
+        whole / f64::powi(2.0, self.axes.len() as i32 * depth as i32)
     }
 
     /// Lower and upper corner in the pose coordinates that vary (unused entries 0).

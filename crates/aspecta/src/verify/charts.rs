@@ -4,8 +4,8 @@ use super::Sheet;
 use super::body::Body;
 use super::place::{Coordinates, Place, Setting};
 use crate::certificate::Certificate;
-use crate::kinematics::chart::{Bend, Chain, Chart, Fold};
-use crate::num::{Interval, Scalar};
+use crate::kinematics::chart::{Chain, Chart, Fold};
+use crate::num::{Interval, Scalar, dot};
 use crate::robot::{Actuator, Platform, Robot, Window};
 use rayon::prelude::*;
 
@@ -91,12 +91,11 @@ pub(super) fn are_disjoint<const D: usize>(
                 _ => false,
             };
         }
-        (
-            Chart::Chain(Chain { leg, bend: Some(bend) }),
-            Chart::Chain(Chain { leg: other_leg, bend: Some(other) }),
-        ) if leg == other_leg => return are_ends_apart(bend, other),
         (Chart::Fold(_), Chart::Fold(_)) => {}
-        (Chart::Chain(Chain { bend: Some(_), .. }), Chart::Chain(Chain { bend: Some(_), .. })) => {}
+        (Chart::Chain(chain), Chart::Chain(other)) => {
+            let caps = Cap::of(setting.robot, chain).zip(Cap::of(setting.robot, other));
+            return caps.is_some_and(|(cap, other)| cap.is_apart_from(&other));
+        }
         _ => return false,
     }
     let range =
@@ -111,9 +110,43 @@ pub(super) fn are_disjoint<const D: usize>(
     false
 }
 
-/// Whether a leg's elbow is never near both ends.
-fn are_ends_apart(bend: &Bend, other: &Bend) -> bool {
-    bend.back != other.back && bend.half_width + other.half_width < 3.0
+/// The orientations of a bend: the platform's joint v is within `radius` (rad) of an end of the motor's axis.
+struct Cap {
+    end: [Interval; 3],
+    joint: [Interval; 3],
+    radius: Interval,
+}
+
+impl Cap {
+    fn of(robot: &Robot, chain: &Chain) -> Option<Self> {
+        let (leg, bend) = (&robot.legs[chain.leg], chain.bend.as_ref()?);
+        let Actuator::Spherical { proximal: (cos_a, sin_a), distal_cos: cos_b } = leg.actuator else {
+            return None;
+        };
+        let side = Interval::point(if bend.back { 1.0 } else { -1.0 });
+        let sin = |cos: Interval| (Interval::point(1.0) - cos.square()).sqrt();
+        let cos = side * cos_a * cos_b + sin_a * sin(cos_b) * Interval::point(bend.half_width).sin_cos().1;
+        let radius = Interval::angle(cos, sin(cos))?;
+        Some(Self { end: leg.frame[2].map(|x| side * x), joint: leg.attachment, radius })
+    }
+
+    /// If an orientation were in both, each joint would be near its end: the angle between the joints and that between the ends would
+    /// differ by no more than the radii, by the triangle inequality on the sphere.
+    fn is_apart_from(&self, other: &Self) -> bool {
+        let (Some(ends), Some(joints)) = (between(&self.end, &other.end), between(&self.joint, &other.joint))
+        else {
+            return false;
+        };
+        let apart = if ends.lo > joints.lo { ends - joints } else { joints - ends };
+        (apart - self.radius - other.radius).is_positive()
+    }
+}
+
+/// The angle between two vectors, in [0, π].
+fn between(x: &[Interval; 3], y: &[Interval; 3]) -> Option<Interval> {
+    let entry = |k: usize| x[(k + 1) % 3] * y[(k + 2) % 3] - x[(k + 2) % 3] * y[(k + 1) % 3];
+    let across = entry(0).square() + entry(1).square() + entry(2).square();
+    Interval::angle(dot(x, y), across.sqrt())
 }
 
 /// What a box of a sheet is in the coordinates of the one beneath, whose chart is `under`: in each posture of a chain's leg.

@@ -95,6 +95,36 @@ fn bends_are_joined_with_the_base() {
     assert!(apart.iter().any(|claim| claim.low == 1 && claim.high > Some(1)), "{apart:?}");
 }
 
+/// Six folds, at both ends of each motor's axis, of which the nearest two are 0.04 rad apart: so are their charts.
+#[test]
+fn bends_are_disjoint() {
+    let mut robot =
+        Robot::from_toml(include_str!("../../../tests/fixtures/folding_sphere.toml"), "").unwrap();
+    for (leg, joint) in robot.legs.iter_mut().zip([[0.6, -0.8, 0.0], [0.0, 0.28, -0.96], [-0.96, 0.0, 0.28]])
+    {
+        let (cos, sin) = (Interval::point(0.0), Interval::point(1.0));
+        leg.actuator = Actuator::Spherical { proximal: (cos, sin), distal_cos: cos };
+        leg.attachment = joint.map(Interval::point);
+    }
+    let window = robot.slice(&[]).unwrap();
+    let found = crate::kinematics::chart::charts(&robot, &window);
+    assert_eq!(found.len(), 5);
+    let scale = &SPHERE.scale;
+    let disjoint = |chart: &Chart, other: &Chart| {
+        let setting = Setting::new(&robot, chart, charts::window_of(chart, &window), scale);
+        charts::are_disjoint::<3>(&setting, chart, other)
+    };
+    for (k, chart) in found.iter().enumerate().skip(1) {
+        assert!(found[k + 1..].iter().all(|other| disjoint(chart, other)), "{chart:?}");
+        assert!(!disjoint(chart, chart) && !disjoint(&found[0], chart));
+    }
+    let wide = |chart: &Chart| {
+        let Chart::Chain(Chain { leg, bend: Some(Bend { back, .. }) }) = *chart else { unreachable!() };
+        Chart::Chain(Chain { leg, bend: Some(Bend { back, half_width: 0.9 }) })
+    };
+    assert!(!disjoint(&wide(&found[1]), &wide(&found[3])));
+}
+
 /// Paths in the joint angles of a leg.
 #[test]
 fn paths_of_chains_are_checked() {
