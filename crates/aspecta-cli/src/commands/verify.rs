@@ -6,7 +6,7 @@ use crate::input;
 use crate::output::{self, Align, Table, note};
 use aspecta::certificate::{Certificate, CertificateError, Claim};
 use aspecta::robot::Robot;
-use aspecta::verify::{Checked, Verdict, verify};
+use aspecta::verify::{Checked, ENOUGH, Verdict, verify};
 use aspecta_cli::words::count;
 use clap::Args;
 use std::io::Write;
@@ -106,6 +106,9 @@ fn print(out: &mut dyn Write, certificate: &Certificate, verdict: &Verdict) -> R
     writeln!(out)?;
     for fault in &verdict.faults {
         writeln!(out, "fault: {}", fault.in_words(&certificate.modes))?;
+    }
+    if verdict.faults.len() >= ENOUGH {
+        writeln!(out, "there may be more: boxes are looked at until {ENOUGH} have faults")?;
     }
     match verdict.is_verified() {
         true => writeln!(out, "verified: {}{}", total(&certificate.claims), restriction(certificate))?,

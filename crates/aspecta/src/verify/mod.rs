@@ -68,8 +68,8 @@ use place::{Coordinates, Setting};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
-/// Faults after which no more are sought.
-const ENOUGH: usize = 10;
+/// Leaves with faults after which no more are looked at.
+pub const ENOUGH: usize = 10;
 
 /// Checks a certificate that has been read ([`Certificate::from_json`]).
 ///

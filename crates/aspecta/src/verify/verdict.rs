@@ -90,7 +90,7 @@ impl Fault {
         let named = |name: &str, k: Option<usize>| k.map(|k| format!("{name} {k}"));
         let parts: Vec<String> =
             [named("sheet", self.sheet), named("leaf", self.leaf), class].into_iter().flatten().collect();
-        let ranges: Vec<String> = self.bounds.iter().map(|(lo, hi)| format!("[{lo:.6}, {hi:.6}]")).collect();
+        let ranges: Vec<String> = self.bounds.iter().map(|(lo, hi)| format!("[{lo}, {hi}]")).collect();
         let place = if ranges.is_empty() { String::new() } else { format!(", in {}", ranges.join(" × ")) };
         format!("{}: {}{place}", parts.join(", "), self.reason)
     }
