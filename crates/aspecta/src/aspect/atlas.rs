@@ -1,7 +1,7 @@
 //! The charts of a robot, paved.
 
 use super::scale::Scale;
-use super::seams::base_of;
+use super::seams::{base_of, middle};
 use super::summit::summitless;
 use crate::kinematics::WorkingMode;
 use crate::kinematics::chart::{Chart, charts};
@@ -157,8 +157,10 @@ impl<'a> Atlas<'a> {
             return true;
         }
         let paving = &self.sheets[base];
-        let centre: Vec<Interval> = paving.centre(node).into_iter().map(Interval::point).collect();
-        for_platform!(self.robot.platform, outside_charts(self.robot, charts, &paving.chart, &centre))
+        for_platform!(
+            self.robot.platform,
+            outside_charts(self.robot, charts, &paving.chart, &middle(paving, node))
+        )
     }
 
     /// Boxes classified so far.

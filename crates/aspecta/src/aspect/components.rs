@@ -50,7 +50,7 @@ pub(super) struct Components {
     pub component_of: Vec<Option<u32>>,
     /// The pieces, in the order of their first box.
     pub pieces: Vec<Piece>,
-    /// Boxes of sheets from 1 on whose centres, as poses, lie in a box of sheet 0, so that what touches the one and what touches the other are one
+    /// Boxes of sheets from 1 on whose centres lie in a box of the sheet beneath, so that what touches the one and what touches the other are one
     /// piece; no more than that takes.
     pub seams: Vec<Leaf>,
 }

@@ -17,7 +17,7 @@ pub(super) struct Counted {
     pub joins: Vec<Path>,
     /// Boxes found to have no summit, for the atlas to remember.
     pub summitless: Vec<Leaf>,
-    /// Boxes of poses found to lie in a chart, for the atlas to remember: then the count is due once more.
+    /// Boxes of the base found to lie in a later chart, for the atlas to remember: then the count is due once more.
     pub covered: Vec<Leaf>,
     /// What lies between pieces that were not joined.
     pub between: Between,
@@ -163,7 +163,7 @@ fn fertile(
         .collect()
 }
 
-/// Of the components that may hold an aspect or not: the boxes of poses that lie in a chart after all, and the largest undecided boxes. Finer
+/// Of the components that may hold an aspect or not: the boxes of the base that lie in a later chart after all, and the largest undecided boxes. Finer
 /// ones would anchor them, or show that they have no summit.
 fn loose(atlas: &Atlas<'_>, components: &Components, found: &[Group]) -> (Vec<Leaf>, Vec<Leaf>) {
     let loose: BTreeSet<u32> =

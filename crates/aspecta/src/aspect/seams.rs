@@ -55,29 +55,31 @@ pub(super) fn inner(
             if sight(&sheet.nodes[at as usize]) != Mark::Inside {
                 return;
             }
-            let centre: Vec<Interval> = sheet.centre(at).into_iter().map(Interval::point).collect();
-            for (k, point) in middles(robot, sheets, beneath, (s, at)).iter().enumerate() {
+            for (k, point) in middles(robot, under, sheet, at).iter().enumerate() {
                 // In the other posture of the base's leg it is another configuration, of another mode.
                 let found = under.find(sight, point).filter(|(_, surely)| *surely).map(|(other, _)| other);
                 let Some(other) = found.filter(|&n| sight(&under.nodes[n as usize]) == Mark::Inside) else {
                     continue;
                 };
                 join((beneath, other), (s, at), &|| {
-                    under.holds(other, &images(robot, under, sheet, &centre)[k])
+                    under.holds(other, &images(robot, under, sheet, &middle(sheet, at))[k])
                 });
             }
         });
     }
 }
 
-/// What the centre of a box is in the chart of the sheet beneath, numerically: in each posture of its leg.
-fn middles(robot: &Robot, sheets: &[Paving], beneath: usize, leaf: Leaf) -> ArrayVec<Vec<f64>, 2> {
-    if sheets[beneath].chart == Chart::Pose {
-        return std::iter::once(centre(robot, sheets, leaf)).collect();
+/// The centre of a box, to compute with in intervals.
+pub(super) fn middle(sheet: &Paving, at: u32) -> Vec<Interval> {
+    sheet.centre(at).into_iter().map(Interval::point).collect()
+}
+
+/// What the centre of a box is in the chart of the sheet `under`, numerically: in each posture of its leg.
+fn middles(robot: &Robot, under: &Paving, sheet: &Paving, at: u32) -> ArrayVec<Vec<f64>, 2> {
+    if under.chart == Chart::Pose {
+        return std::iter::once(pose_at_centre(robot, sheet, at)).collect();
     }
-    let sheet = &sheets[leaf.0];
-    let centre: Vec<Interval> = sheet.centre(leaf.1).into_iter().map(Interval::point).collect();
-    let images = images(robot, &sheets[beneath], sheet, &centre);
+    let images = images(robot, under, sheet, &middle(sheet, at));
     images.into_iter().map(|image| image.iter().map(|x| x.mid()).collect()).collect()
 }
 
@@ -103,7 +105,11 @@ fn outer_faces(robot: &Robot, sheet: &Paving, at: u32) -> Vec<Vec<Interval>> {
 
 /// The pose at the centre of a box.
 pub(super) fn centre(robot: &Robot, sheets: &[Paving], (s, at): Leaf) -> Vec<f64> {
-    for_platform!(robot.platform, pose_of(robot, &sheets[s].chart, &sheets[s].centre(at)))
+    pose_at_centre(robot, &sheets[s], at)
+}
+
+fn pose_at_centre(robot: &Robot, sheet: &Paving, at: u32) -> Vec<f64> {
+    for_platform!(robot.platform, pose_of(robot, &sheet.chart, &sheet.centre(at)))
 }
 
 /// Poses that hold the configurations of a box.

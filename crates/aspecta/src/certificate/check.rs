@@ -2,7 +2,7 @@
 
 use super::{Certificate, TreeError};
 use crate::kinematics::chart::{Chain, Chart, Fold};
-use crate::num::{Interval, Scalar, dot};
+use crate::num::{Interval, Scalar, cross, dot};
 use crate::paving::AXES;
 use crate::robot::{Actuator, Leg, Limit, Platform, Robot, RobotError, Window, is_line};
 
@@ -274,8 +274,7 @@ fn fault_of_leg(leg: &Leg, platform: Platform) -> Option<&'static str> {
         return Some("its frame is not orthonormal");
     }
     let [x, y, z] = &leg.frame;
-    let along = |k: usize| x[(k + 1) % 3] * y[(k + 2) % 3] - x[(k + 2) % 3] * y[(k + 1) % 3];
-    if !(0..3).all(|k| is_about(along(k) - z[k], 0.0)) {
+    if !cross(x, y).iter().zip(z).all(|(across, z)| is_about(*across - *z, 0.0)) {
         return Some("its frame is not right-handed: its angles would turn the other way");
     }
     let out_of_plane = [x[2], y[2], z[0], z[1]];

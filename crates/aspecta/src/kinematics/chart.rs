@@ -116,7 +116,7 @@ impl Chart {
         match self {
             Self::Fold(fold) => fold.cover(&legs[fold.leg]),
             Self::Chain(Chain { leg, bend: Some(bend) }) => {
-                bend.cover(&robot.legs[*leg].actuator, &legs[*leg].span).into_iter().collect()
+                std::iter::once(bend.cover(&robot.legs[*leg].actuator, &legs[*leg].span)).collect()
             }
             Self::Pose | Self::Chain(_) => ArrayVec::new(),
         }

@@ -115,6 +115,12 @@ pub fn dot<T: Scalar, const D: usize>(a: &[T; D], b: &[T; D]) -> T {
     sum
 }
 
+/// a × b.
+pub fn cross<T: Scalar>(a: &[T; 3], b: &[T; 3]) -> [T; 3] {
+    let minor = |i: usize, j: usize| a[i] * b[j] - a[j] * b[i];
+    [minor(1, 2), minor(2, 0), minor(0, 1)]
+}
+
 /// Σ cₖ aₖ with constant cₖ: exact zeros cost nothing.
 #[inline]
 pub fn dot_constant<T: Scalar, const D: usize>(c: &[Interval], a: &[T; D]) -> T {

@@ -5,7 +5,7 @@ use super::body::Body;
 use super::place::{Coordinates, Place, Setting};
 use crate::certificate::Certificate;
 use crate::kinematics::chart::{Chain, Chart, Fold};
-use crate::num::{Interval, Scalar, dot};
+use crate::num::{Interval, Scalar, cross, dot};
 use crate::robot::{Actuator, Platform, Robot, Window};
 use rayon::prelude::*;
 
@@ -144,9 +144,8 @@ impl Cap {
 
 /// The angle between two vectors, in [0, π].
 fn between(x: &[Interval; 3], y: &[Interval; 3]) -> Option<Interval> {
-    let entry = |k: usize| x[(k + 1) % 3] * y[(k + 2) % 3] - x[(k + 2) % 3] * y[(k + 1) % 3];
-    let across = entry(0).square() + entry(1).square() + entry(2).square();
-    Interval::angle(dot(x, y), across.sqrt())
+    let [a, b, c] = cross(x, y).map(Interval::square);
+    Interval::angle(dot(x, y), (a + b + c).sqrt())
 }
 
 /// What a box of a sheet is in the coordinates of the one beneath, whose chart is `under`: in each posture of a chain's leg.
@@ -198,15 +197,16 @@ pub(super) fn met_outside<const D: usize>(
         Chart::Chain(Chain { bend: Some(_), .. }) => 1..2,
         _ => 0..0,
     };
+    let classes = claims.inside | claims.undecided;
+    let matters = |other: usize| {
+        let others = base.cells.leaves[other].claims;
+        partly[other] && (others.inside | others.undecided) & classes != 0
+    };
     for k in ends {
         let [low, high] = cells.at_ends(leaf, k);
         for (_, end) in [(low, y[k].lo), (high, y[k].hi)].into_iter().filter(|(outer, _)| *outer) {
             let mut face = y;
             face[k] = Interval::point(end);
-            let matters = |other: usize| {
-                let others = base.cells.leaves[other].claims;
-                partly[other] && (others.inside | others.undecided) & (claims.inside | claims.undecided) != 0
-            };
             meet::<D>(setting, &face, base, &matters, HALVINGS, &mut found);
         }
     }

@@ -36,7 +36,7 @@ pub(super) fn check<const D: usize>(
     verdict: &mut Verdict,
 ) {
     (control.progress)(Progress { stage: "adjacency", done: 0, total: 1 });
-    let leaves = Leaves::new::<D>(certificate, sheets, charts::base_of(charts));
+    let leaves = Leaves::new::<D>(certificate, sheets, charts);
     let classes = 2 * certificate.modes.len();
     let count = |class: usize| {
         (control.progress)(Progress { stage: "counting", done: class as u64, total: classes as u64 });
@@ -88,7 +88,8 @@ fn faults(class: usize, claimed: Claim, proved: Claim) -> Vec<Fault> {
 }
 
 impl<'a> Leaves<'a> {
-    fn new<const D: usize>(certificate: &Certificate, sheets: &'a [Sheet<'a>], base: usize) -> Self {
+    fn new<const D: usize>(certificate: &Certificate, sheets: &'a [Sheet<'a>], charts: &[&Chart]) -> Self {
+        let base = charts::base_of(charts);
         let mut first = Vec::new();
         let mut all: Vec<Leaf> = Vec::new();
         for sheet in sheets {
@@ -98,7 +99,7 @@ impl<'a> Leaves<'a> {
         let mut leaves =
             Self { sheets, base, first, all, touching: vec![], across: vec![], poles: Default::default() };
         leaves.touching = leaves.pairs(|s, leaf| leaves.neighbours(s, leaf));
-        let later = charts::of(certificate).into_iter().skip(base);
+        let later = charts.iter().skip(base);
         let partly: Vec<Vec<bool>> =
             later.map(|chart| charts::partly_in::<D>(&sheets[base], chart)).collect();
         leaves.across = leaves.pairs(|s, leaf| {

@@ -6,7 +6,6 @@ use crate::certificate::{Claim, Entry, Leaf, Sheet as SheetOfFile, Tree};
 use crate::kinematics::WorkingMode;
 use crate::kinematics::chart::Fold;
 use crate::robot::{Actuator, Leg, Platform, Robot, catalogue};
-use std::sync::atomic::AtomicBool;
 
 fn sphere() -> Robot {
     Robot::from_toml(include_str!("../../tests/fixtures/sphere.toml"), "sphere.toml").unwrap()
@@ -40,7 +39,7 @@ fn refusal(certificate: &Certificate) -> String {
 
 fn verdict(certificate: &Certificate) -> Verdict {
     let read = Certificate::from_json(certificate.to_json().unwrap().as_bytes()).unwrap();
-    verify(&read, &Control { cancelled: &AtomicBool::new(false), progress: &|_| {} })
+    verify(&read, &Control::unwatched())
 }
 
 /// Where a window cuts roll and yaw it ends at the pole of the pitch too: poses beyond have other rolls and yaws. An aspect may be highest there.

@@ -6,6 +6,7 @@ use super::place::{Coordinates, Place, Setting};
 use super::{Fault, Sheet, Verdict, charts, point};
 use crate::certificate::{Certificate, Join, Seam};
 use crate::kinematics::WorkingMode;
+use crate::kinematics::chart::Chart;
 use crate::num::Interval;
 
 /// Leaves (sheet, leaf) proved to lie in one aspect of a class.
@@ -17,10 +18,11 @@ pub(super) struct Link {
 pub(super) fn check<const D: usize>(
     certificate: &Certificate,
     sheets: &[Sheet<'_>],
+    charts: &[&Chart],
     verdict: &mut Verdict,
 ) -> Vec<Link> {
     let mut links = Vec::new();
-    let base = charts::base_of(&charts::of(certificate));
+    let base = charts::base_of(charts);
     let joins = certificate.joins.iter();
     let joins = joins.map(|join| (join.class, "join", link_of_join::<D>(certificate, sheets, join)));
     let seams = certificate.seams.iter();

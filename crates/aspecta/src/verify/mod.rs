@@ -106,7 +106,7 @@ fn check_boxes<const D: usize>(
         check_leaves::<D>(certificate, &sheets, charts, control, verdict);
     }
     if verdict.faults.is_empty() && !control.is_cancelled() {
-        let links = links::check::<D>(certificate, &sheets, verdict);
+        let links = links::check::<D>(certificate, &sheets, charts, verdict);
         if verdict.faults.is_empty() {
             count::check::<D>(certificate, &sheets, charts, &links, control, verdict);
         }

@@ -5,7 +5,7 @@ use super::curvature::has_no_maximum;
 use super::direction::climbable;
 use super::in_mode::{Existence, InMode};
 use super::place::{ANY, Heights, ONE, OWN, Posture, ZERO, halves};
-use crate::num::{Interval, Scalar};
+use crate::num::{Interval, Scalar, cross};
 use crate::paving::AXES;
 
 /// A vector along the axes.
@@ -162,13 +162,6 @@ fn of_leg(j: usize, gradient: &[Interval; AXES + 1]) -> Vector {
 
 fn dot<const M: usize>(a: &[Interval; M], b: &[Interval; M]) -> Interval {
     a.iter().zip(b).fold(ZERO, |sum, (a, b)| sum + *a * *b)
-}
-
-fn cross(a: &Direction, b: &Direction) -> Direction {
-    std::array::from_fn(|i| {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        a[j] * b[k] - a[k] * b[j]
-    })
 }
 
 /// The middle of a vector, at length one.

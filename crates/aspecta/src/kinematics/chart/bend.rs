@@ -136,7 +136,7 @@ mod tests {
             let mut here = Vec::new();
             for (k, chain) in found.iter().enumerate() {
                 let bend = chain.bend.as_ref().unwrap();
-                let margin = bend.cover(&robot.legs[chain.leg].actuator, &legs[chain.leg].span).unwrap();
+                let margin = bend.cover(&robot.legs[chain.leg].actuator, &legs[chain.leg].span);
                 let all = Chain { leg: chain.leg, bend: None };
                 let [y, _] = all.coordinates::<3, 3>(&robot, &placement.map(Interval::point));
                 let end = if bend.back { PI } else { 0.0 };

@@ -4,7 +4,7 @@ use super::Folded;
 use crate::kinematics::leg::Closure;
 use crate::kinematics::modal::{LegClosure, closures};
 use crate::kinematics::placement::{Placement, into_frame, out_of_frame, roll_pitch_yaw};
-use crate::num::{Interval, Scalar, dot, each};
+use crate::num::{Interval, Scalar, cross, dot, each};
 use crate::robot::{Actuator, Platform, Robot, Window};
 use serde::{Deserialize, Serialize};
 
@@ -47,19 +47,20 @@ pub struct Bend {
 
 impl Bend {
     /// A function of leg j at an orientation: where it is positive and the leg closes, the chart covers the orientation.
-    pub(super) fn cover<T: Scalar, const D: usize>(&self, actuator: &Actuator, span: &[T; D]) -> Option<T> {
-        let Actuator::Spherical { proximal: (cos_a, sin_a), distal_cos: cos_b } = *actuator else {
-            return None;
-        };
-        let across = sin_a * sine_of(cos_b) * Interval::point(self.half_width).sin_cos().1;
+    pub(super) fn cover<T: Scalar, const D: usize>(&self, actuator: &Actuator, span: &[T; D]) -> T {
+        let [(cos_a, sin_a), (cos_b, sin_b)] = angles_of(actuator);
+        let across = sin_a * sin_b * Interval::point(self.half_width).sin_cos().1;
         let beyond = span[D - 1] - T::constant(cos_a * cos_b);
-        Some(if self.back { beyond } else { -beyond } - T::constant(across))
+        if self.back { beyond - T::constant(across) } else { -beyond - T::constant(across) }
     }
 }
 
-/// The sine of a link's angle, whose cosine is given.
-fn sine_of(cos: Interval) -> Interval {
-    (Interval::point(1.0) - cos.square()).sqrt()
+/// (cos, sin) of the angles of a spherical leg's links, a and b.
+fn angles_of(actuator: &Actuator) -> [(Interval, Interval); 2] {
+    let Actuator::Spherical { proximal, distal_cos } = *actuator else {
+        unreachable!("a platform that turns about a point has spherical legs only");
+    };
+    [proximal, (distal_cos, (Interval::point(1.0) - distal_cos.square()).sqrt())]
 }
 
 impl Chain {
@@ -124,16 +125,12 @@ impl Chain {
         placement: &Placement<Interval, D>,
     ) -> [[Interval; N]; 2] {
         let leg = &robot.legs[self.leg];
-        let Actuator::Spherical { proximal: (cos_a, sin_a), distal_cos: cos_b } = leg.actuator else {
-            return [[Interval::ENTIRE; N]; 2];
-        };
-        let one = Interval::point(1.0);
-        let sin_b = sine_of(cos_b);
+        let [(cos_a, sin_a), (cos_b, sin_b)] = angles_of(&leg.actuator);
         let angle = |cos: Interval, sin: Interval| Interval::angle(cos, sin).unwrap_or(Interval::ENTIRE);
         let v: [Interval; D] = into_frame(leg, &placement.arm(leg));
         let first: [Interval; D] = into_frame(leg, &placement.turned(&self.body(robot)[0]));
         let cos_psi = ((cos_a * cos_b - v[D - 1]) / (sin_a * sin_b)).meet(Interval::new(-1.0, 1.0));
-        let side = (one - cos_psi.square()).sqrt();
+        let side = (Interval::point(1.0) - cos_psi.square()).sqrt();
         [side, -side].map(|sin_psi| {
             // v where q = 0; the motor turns it about the third axis.
             let (x, y) = (sin_a * cos_b + cos_a * sin_b * cos_psi, sin_b * sin_psi);
@@ -161,10 +158,7 @@ struct Links<T, const D: usize> {
 impl<T: Scalar, const D: usize> Links<T, D> {
     /// At the motor's and the elbow's angles with these (sin, cos).
     fn new(actuator: &Actuator, (sin, cos): (T, T), (sin_psi, cos_psi): (T, T)) -> Self {
-        let Actuator::Spherical { proximal: (cos_a, sin_a), distal_cos: cos_b } = *actuator else {
-            unreachable!("a platform that turns about a point has spherical legs only");
-        };
-        let sin_b = sine_of(cos_b);
+        let [(cos_a, sin_a), (cos_b, sin_b)] = angles_of(actuator);
         let vector = |x: T, y: T, z: T| -> [T; D] { each!(|k| [x, y, z][k]) };
         let w = vector(cos.scale(sin_a), sin.scale(sin_a), T::constant(cos_a));
         let n = vector(cos.scale(cos_a), sin.scale(cos_a), T::constant(-sin_a));
@@ -186,11 +180,7 @@ fn axes_about(c: &[Interval; 3]) -> [[Interval; 3]; 3] {
     // e × c for the axis e that c is farthest from; then c × that.
     let mut first = [Interval::point(0.0); 3];
     (first[i], first[j]) = (-c[j] / length, c[i] / length);
-    let second = std::array::from_fn(|k| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        c[i] * first[j] - c[j] * first[i]
-    });
-    [first, second, *c]
+    [first, cross(c, &first), *c]
 }
 
 /// Roll, pitch and yaw of a placement, numerically.

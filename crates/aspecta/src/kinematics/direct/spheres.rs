@@ -1,14 +1,9 @@
 //! A body that does not turn on three legs: three spheres.
 
 use super::mirror::{MirrorPair, Pair};
-use crate::num::{Interval, Scalar};
+use crate::num::{Interval, Scalar, cross};
 
 type Vector = [Interval; 3];
-
-fn cross(a: &Vector, b: &Vector) -> Vector {
-    let minor = |i: usize, j: usize| a[i] * b[j] - a[j] * b[i];
-    [minor(1, 2), minor(2, 0), minor(0, 1)]
-}
 
 fn minus(a: &Vector, b: &Vector) -> Vector {
     std::array::from_fn(|k| a[k] - b[k])

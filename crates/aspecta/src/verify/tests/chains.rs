@@ -84,8 +84,8 @@ fn bends_are_joined_with_the_base() {
         let mut certificate = BENT.clone();
         change(&mut certificate);
         let (sheets, mut verdict) = (sheets(&certificate), Verdict::new(&certificate));
-        let links = links::check::<3>(&certificate, &sheets, &mut verdict);
         let (charts, control) = (charts::of(&certificate), Control::unwatched());
+        let links = links::check::<3>(&certificate, &sheets, &charts, &mut verdict);
         count::check::<3>(&certificate, &sheets, &charts, &links, &control, &mut verdict);
         verdict
     };
