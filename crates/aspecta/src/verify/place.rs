@@ -123,6 +123,8 @@ pub(super) struct Place<'a, const D: usize> {
     spans: ArrayVec<Span<D>, MOST>,
     /// Range of H_j; [1, 1] for struts.
     pub reach: [Interval; MOST],
+    /// ∇H_j along the axes; zero for struts.
+    pub ascent: [[Interval; AXES]; MOST],
     /// For s = + and s = −, once they are asked for; a strut has the second only.
     postures: [[OnceCell<Rc<Posture>>; 2]; MOST],
 }
@@ -144,12 +146,14 @@ impl<'a, const D: usize> Place<'a, D> {
         let spans = (0..setting.robot.dof()).map(span).collect();
         let about = std::array::from_fn(axis);
         let postures = Default::default();
-        let mut place = Self { setting, y, about, over, at_middle, spans, reach: [ONE; MOST], postures };
+        let (reach, ascent) = ([ONE; MOST], [[ZERO; AXES]; MOST]);
+        let mut place = Self { setting, y, about, over, at_middle, spans, reach, ascent, postures };
         for (j, span) in place.spans.iter().enumerate() {
             if let (Some(over), Some(middle)) =
                 (place.over.reach(j, &span.over), place.at_middle.reach(j, &span.at_middle))
             {
                 place.reach[j] = place.range(&over, middle, None);
+                place.ascent[j] = std::array::from_fn(|a| over.gradient[a]);
             }
         }
         place

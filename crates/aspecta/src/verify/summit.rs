@@ -18,6 +18,34 @@ type Vector = [Interval; AXES + MOST];
 struct Constraint {
     value: Interval,
     gradient: Vector,
+    /// The leg whose h_j it is.
+    height_of: Option<usize>,
+}
+
+/// A tangent vector of the configurations.
+struct Velocity {
+    vector: Vector,
+    /// The legs, as bits, whose h_j it does not change.
+    level: u8,
+}
+
+impl Velocity {
+    /// The derivative of a constraint along it.
+    fn growth(&self, constraint: &Constraint) -> Interval {
+        match constraint.height_of {
+            Some(j) if self.level >> j & 1 == 1 => ZERO,
+            _ => dot(&constraint.gradient, &self.vector),
+        }
+    }
+}
+
+/// What tangent vectors hold of legs that may be near a serial singularity.
+#[derive(Clone, Copy, PartialEq)]
+enum Held {
+    /// q_j.
+    Joint,
+    /// h_j.
+    Height,
 }
 
 /// Most parts into which the h_j of loose legs are cut.
@@ -55,14 +83,17 @@ impl<const D: usize> InMode<'_, '_, D> {
             return true;
         }
         let active: Vec<&Constraint> = constraints.iter().filter(|c| c.value.lo <= least).collect();
-        let climbs = |loose: Vec<usize>| {
-            self.velocities(&loose).is_some_and(|velocities| {
-                let growth = |c: &&Constraint| velocities.iter().map(|v| dot(&c.gradient, v)).collect();
+        let climbs = |held: Held, loose: &[usize]| {
+            self.velocities(loose, held).is_some_and(|velocities| {
+                let growth = |c: &&Constraint| velocities.iter().map(|v| v.growth(c)).collect();
                 climbable(&active.iter().map(growth).collect::<Vec<_>>())
             })
         };
+        let climbs_with = |loose: Vec<usize>| {
+            climbs(Held::Height, &loose) || !loose.is_empty() && climbs(Held::Joint, &loose)
+        };
         let det_alone = active.len() == 1 && constraints[0].value.lo <= least;
-        self.choices_of_loose().into_iter().any(climbs)
+        self.choices_of_loose().into_iter().any(climbs_with)
             || det_alone && !self.is_loose() && self.det_has_no_maximum(sign)
     }
 
@@ -81,18 +112,18 @@ impl<const D: usize> InMode<'_, '_, D> {
         let det = self.determinant();
         let mut gradient = joined(&det.along, &det.by_joint);
         gradient.iter_mut().for_each(|g| *g = *g * exact(sign));
-        let mut all = vec![Constraint { value: det.range * exact(sign) / exact(scale.det), gradient }];
+        let mut all = vec![Constraint { value: det.range * exact(sign) / exact(scale.det), gradient, height_of: None }];
         for (j, posture) in self.legs.iter().enumerate() {
             if setting.robot.legs[j].actuator.postures() == 2 {
                 // √H = |B| (|B|/2) grows as s B does where that is positive.
                 let s = exact(f64::from(self.mode.sign(j)));
                 let gradient = of_leg(j, &posture.over.slope.gradient.map(|g| g * s));
                 let value = (posture.reach / exact(scale.reach[j])).sqrt();
-                all.push(Constraint { value, gradient });
+                all.push(Constraint { value, gradient, height_of: Some(j) });
             }
             for (k, limit) in posture.over.limits.iter().enumerate() {
                 let value = posture.limits[k] / exact(scale.limits[j][k]);
-                all.push(Constraint { value, gradient: of_leg(j, &limit.gradient) });
+                all.push(Constraint { value, gradient: of_leg(j, &limit.gradient), height_of: None });
             }
         }
         for (a, &k) in setting.axes.iter().enumerate() {
@@ -103,7 +134,7 @@ impl<const D: usize> InMode<'_, '_, D> {
                 if cut {
                     let mut gradient = [ZERO; AXES + MOST];
                     gradient[a] = exact(sign);
-                    all.push(Constraint { value: distance / width, gradient });
+                    all.push(Constraint { value: distance / width, gradient, height_of: None });
                 }
             }
         }
@@ -125,24 +156,38 @@ impl<const D: usize> InMode<'_, '_, D> {
     }
 
     /// As many tangent vectors of the configurations as there are axes. With n_j = ∂f_j/∂y they fulfil n_j·ẏ + B_jj q̇_j = 0 exactly at
-    /// every point of the box. For the loose legs, either n_j·ẏ = 0 and q̇_j = 0, by an exact cross product, or ẏ = −B_jj c and
-    /// q̇_j = n_j·c.
-    fn velocities(&self, loose: &[usize]) -> Option<Vec<Vector>> {
-        let normal = |j: &usize| std::array::from_fn(|a| self.legs[*j].over.equation.gradient[a]);
-        let normals: Vec<Direction> = loose.iter().map(normal).collect();
+    /// every configuration of the box with B_jj ≠ 0. For the loose legs, either ẏ = −B_jj c and q̇_j = n_j·c, or one of two is held by exact
+    /// cross products:
+    ///
+    /// - q_j: n_j·ẏ = 0 and q̇_j = 0;
+    /// - h_j: ∇H_j·ẏ = 0. As B_jj² is H_j, up to a constant, it does not change, and ∂B_jj/∂y·ẏ + ∂B_jj/∂q_j q̇_j = 0 gives q̇_j.
+    fn velocities(&self, loose: &[usize], held: Held) -> Option<Vec<Velocity>> {
+        let along_axes = |gradient: &[Interval]| -> Direction { std::array::from_fn(|a| gradient[a]) };
+        let normal = |j: usize| along_axes(&self.legs[j].over.equation.gradient);
+        let bend = |j: usize| self.legs[j].over.slope.gradient[OWN];
+        if held == Held::Height && loose.iter().any(|&j| bend(j).contains(0.0)) {
+            return None;
+        }
+        let normals: Vec<Direction> = match held {
+            Held::Joint => loose.iter().map(|&j| normal(j)).collect(),
+            Held::Height => loose.iter().map(|&j| self.place.ascent[j]).collect(),
+        };
         let velocity = |(direction, own): (Direction, Option<usize>)| {
-            let own = own.map(|i| (loose[i], normals[i]));
-            let factor = own.map_or(ONE, |(j, _)| -self.legs[j].over.slope.value);
+            let own = own.map(|i| loose[i]);
+            let factor = own.map_or(ONE, |j| -self.legs[j].over.slope.value);
             let along = direction.map(|x| x * factor);
-            let joint = |(j, leg): (usize, &Posture)| match own {
-                Some((i, normal)) if i == j => dot(&normal, &direction),
-                _ if loose.contains(&j) => ZERO,
-                _ => dot(&leg.rate, &along),
+            let joint = |(j, leg): (usize, &Posture)| match held {
+                _ if own == Some(j) => dot(&normal(j), &direction),
+                _ if !loose.contains(&j) => dot(&leg.rate, &along),
+                Held::Joint => ZERO,
+                Held::Height => -(dot(&along_axes(&leg.over.slope.gradient), &along) / bend(j)),
             };
             let mut joints = [ZERO; MOST];
             let legs = self.legs.iter().map(|leg| &**leg);
             joints.iter_mut().zip(legs.enumerate().map(joint)).for_each(|(place, q)| *place = q);
-            joined(&along, &joints)
+            let is_level = |j: &&usize| held == Held::Height && own != Some(**j);
+            let level = loose.iter().filter(is_level).fold(0, |level, j| level | 1 << j);
+            Velocity { vector: joined(&along, &joints), level }
         };
         Some(directions(self.place.setting.axes.len(), &normals)?.into_iter().map(velocity).collect())
     }
