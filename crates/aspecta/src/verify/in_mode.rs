@@ -48,13 +48,19 @@ impl<'p, 'a, const D: usize> InMode<'p, 'a, D> {
         self.legs.iter().any(|leg| leg.loose)
     }
 
-    /// The ranges of h_j of the legs that are loose, or `None` if none is.
-    pub(super) fn heights_of_loose(&self) -> Option<Heights> {
+    /// The ranges of h_j of the legs that are near a serial singularity for the size of the box, or `None` if none is.
+    pub(super) fn heights_near_zero(&self) -> Option<Heights> {
+        let setting = self.place.setting;
+        let is_near = |j: usize, leg: &Posture| {
+            let has_root = !setting.is_own(j) && setting.robot.legs[j].actuator.postures() == 2;
+            has_root && leg.reach.lo <= NEAR * leg.reach.hi
+        };
         let height = |j: usize| match self.legs.get(j) {
-            Some(leg) if leg.loose => leg.reach.sqrt(),
+            Some(leg) if leg.loose || is_near(j, leg) => leg.reach.sqrt(),
             _ => ANY,
         };
-        self.is_loose().then(|| std::array::from_fn(height))
+        let heights = std::array::from_fn(height);
+        heights.iter().any(|&range| range != ANY).then_some(heights)
     }
 
     /// The configurations whose h_j are in these ranges, if there are any.
@@ -134,6 +140,9 @@ impl<'p, 'a, const D: usize> InMode<'p, 'a, D> {
         self.legs.iter().map(|leg| std::array::from_fn(|i| entry(leg, i))).collect()
     }
 }
+
+/// A leg is near a serial singularity if H may be less than this much of its greatest value in the box.
+const NEAR: f64 = 0.5;
 
 /// The part of a range of H where √H is in `height`, if there is one.
 fn part(reach: Interval, height: Interval) -> Option<Interval> {

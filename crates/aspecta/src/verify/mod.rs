@@ -26,9 +26,9 @@
 //!
 //! # Tangent vectors
 //! Configurations are the zeros of f_j(y, q_j). With n_j = ∂f_j/∂y, a velocity (ẏ, q̇) is tangent if n_j·ẏ + B_jj q̇_j = 0. Where B_jj ≠ 0
-//! this gives q̇_j. Where B_jj may vanish, ẏ is chosen exactly perpendicular to n_j and q̇_j = 0, or ẏ = −B_jj c and q̇_j = n_j·c: det A, B_jj
-//! and the limits are smooth functions of (y, q), so nothing grows without bound. h_j = |B_jj| (|B_jj|/2 for prismatic legs) grows where
-//! s_j B_jj does. Near B_jj = 0 h_j = √H_j varies like the root of the box's width, so its range is cut too, with vectors for each part.
+//! this gives q̇_j. Where B_jj may vanish, ẏ = −B_jj c and q̇_j = n_j·c, or ẏ is chosen exactly perpendicular to n_j and q̇_j = 0, or to ∇H_j, so that
+//! h_j is constant: det A, B_jj and the limits are smooth functions of (y, q), so nothing grows without bound. h_j = |B_jj| (|B_jj|/2 for prismatic legs)
+//! grows where s_j B_jj does. Near B_jj = 0 h_j = √H_j varies like the root of the box's width, so its range is cut too, with vectors for each part.
 //! ẏ has the coordinates that vary only: in a slice the others are held, and the tangent vectors are those of the slice.
 //!
 //! det A is expanded by minors, its gradient by cofactors, both in mean value form. Of six rows PAR is expanded, P and R being fixed matrices that make it nearly

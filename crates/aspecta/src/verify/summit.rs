@@ -48,7 +48,7 @@ enum Held {
     Height,
 }
 
-/// Most parts into which the h_j of loose legs are cut.
+/// Most parts into which ranges of h_j are cut.
 const PARTS: usize = 48;
 
 impl<const D: usize> InMode<'_, '_, D> {
@@ -60,7 +60,7 @@ impl<const D: usize> InMode<'_, '_, D> {
         if self.climbs(sign) {
             return true;
         }
-        let Some(whole) = self.heights_of_loose() else { return false };
+        let Some(whole) = self.heights_near_zero() else { return false };
         let cut = |heights: &Heights| {
             halves(heights, |j| if whole[j] == ANY { 0.0 } else { heights[j].width() / whole[j].width() })
         };
@@ -112,7 +112,8 @@ impl<const D: usize> InMode<'_, '_, D> {
         let det = self.determinant();
         let mut gradient = joined(&det.along, &det.by_joint);
         gradient.iter_mut().for_each(|g| *g = *g * exact(sign));
-        let mut all = vec![Constraint { value: det.range * exact(sign) / exact(scale.det), gradient, height_of: None }];
+        let mut all =
+            vec![Constraint { value: det.range * exact(sign) / exact(scale.det), gradient, height_of: None }];
         for (j, posture) in self.legs.iter().enumerate() {
             if setting.robot.legs[j].actuator.postures() == 2 {
                 // √H = |B| (|B|/2) grows as s B does where that is positive.
