@@ -1,6 +1,7 @@
 //! Certificates that hold, and certificates with planted faults.
 
 mod chains;
+mod summits;
 
 use super::*;
 use crate::aspect::{Options, analyze};
