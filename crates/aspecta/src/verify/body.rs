@@ -204,7 +204,10 @@ impl<'a, T: Scalar, const D: usize> Body<'a, T, D> {
         let slope = f.gradient[3];
         let limits = leg.limits.iter().map(|limit| self.margin(j, limit, span, q, slope)).collect();
         // ∂f/∂X by way of C − A.
-        let row = moves.map(|v| (1..D).fold(f.gradient[0] * v[0], |sum, k| sum + f.gradient[k] * v[k]));
+        let mut row = [T::zero(); MOST];
+        for (entry, v) in row.iter_mut().zip(&moves).take(self.robot.dof()) {
+            *entry = (1..D).fold(f.gradient[0] * v[0], |sum, k| sum + f.gradient[k] * v[k]);
+        }
         LegState { equation: f.value, slope, row, limits }
     }
 

@@ -14,6 +14,10 @@ const CORRECTIONS: usize = 4;
 /// boxes, then the corners that are worst for the direction found before.
 pub(super) fn climbable(growth: &[Vec<Interval>]) -> bool {
     let Some(size) = growth.first().map(Vec::len) else { return false };
+    let may_vanish = |g: &Vec<Interval>| g.iter().all(|x| x.contains(0.0));
+    if growth.iter().any(may_vanish) {
+        return false;
+    }
     let units = balanced(growth);
     let scaled = |g: &Vec<Interval>| -> Vec<Interval> {
         g.iter().zip(&units).map(|(x, unit)| *x * Interval::point(1.0 / unit)).collect()
