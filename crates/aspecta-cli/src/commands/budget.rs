@@ -84,7 +84,8 @@ fn quantity(part: &str) -> Result<Quantity, String> {
     }
     Err(format!(
         "`{part}` is not a budget: write a time (30s, 5min, 1h), boxes (2e6boxes), a depth (depth=9) or \
-         the width of the finest cells in length units (res=0.1), several separated by commas"
+         the width of the finest cells (res=0.1: in length units, or in radians where angles alone vary), several \
+         separated by commas"
     ))
 }
 

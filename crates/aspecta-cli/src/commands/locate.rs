@@ -40,7 +40,7 @@ pub struct Locate {
 #[derive(Args)]
 #[group(required = true, multiple = false)]
 struct Input {
-    /// A pose: x,y | x,y,phi | x,y,z. It is looked for in every working mode
+    /// A pose: x,y | x,y,phi | x,y,z | roll,pitch,yaw. It is looked for in every working mode
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
     pose: Option<String>,
     /// A joint vector, one number per leg. All its direct solutions are looked for

@@ -8,7 +8,7 @@ use aspecta::kinematics::WorkingMode;
 use aspecta::motion::modes::Route;
 use aspecta::motion::plan::Plan;
 use aspecta::motion::{Clearance, Joined, Least, PathCheck, PathOptions, check_poses};
-use aspecta::robot::Robot;
+use aspecta::robot::{Platform, Robot};
 use aspecta_cli::words::count;
 use std::io::Write;
 
@@ -62,12 +62,14 @@ pub(super) fn print_table(
     }
     write!(out, "{table}")?;
     let length: f64 = route.stretches.iter().map(|s| s.length).sum();
-    writeln!(
-        out,
-        "length            {} {} (angles times the characteristic length)",
-        brief(length),
-        robot.length_unit
-    )?;
+    let unit = match robot.platform {
+        Platform::TurningBody => "rad",
+        Platform::PlanePoint | Platform::TranslatingBody => &robot.length_unit,
+        Platform::PlaneBody | Platform::FreeBody => {
+            &format!("{} (angles times the characteristic length)", robot.length_unit)
+        }
+    };
+    writeln!(out, "length            {} {unit}", brief(length))?;
     let word = match (is_proved, route.crossings.len()) {
         (false, _) => "not proved".into(),
         (true, 0) => "yes, certified, limits and margins included".into(),

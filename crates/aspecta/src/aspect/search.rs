@@ -4,7 +4,7 @@ use super::ascent::Class;
 use super::atlas::{Atlas, Leaf, Limits};
 use super::count::{Counted, count};
 use crate::kinematics::WorkingMode;
-use crate::paving::{Budget, Control, MAX_BOXES, Progress, Stop};
+use crate::paving::{Budget, Control, MAX_BOXES, MAX_DEPTH, Progress, Stop};
 use crate::robot::{Robot, Window};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -31,7 +31,7 @@ impl<'a> Search<'a> {
     ) -> Self {
         let start = Instant::now();
         let mut limits = Limits {
-            depth: budget.finest(window).unwrap_or(DEEPEST),
+            depth: budget.finest(window).unwrap_or(MAX_DEPTH),
             boxes: budget.boxes.unwrap_or(MAX_BOXES).min(MAX_BOXES),
             time: budget.seconds.map(|seconds| (start, seconds)),
             rest: AFTER * modes.len() as f64 * PER_BOX / rayon::current_num_threads() as f64,
@@ -155,7 +155,3 @@ const AFTER: f64 = 2.0;
 /// About how long, in seconds, a thread takes to count and to report one class, for each box of the atlas. A first guess: time budgets are
 /// kept as well as this is; nothing else depends on it.
 const PER_BOX: f64 = 0.5e-6;
-
-/// The depth at which a search ends if the budget names none: boxes are then some 10⁻⁸ of the window wide, still a million times
-/// the spacing of doubles.
-const DEEPEST: u32 = 26;

@@ -292,7 +292,13 @@ fn fault_of_leg(leg: &Leg, platform: Platform) -> Option<&'static str> {
         Actuator::Revolute { crank, rod } => lengths(&[*crank, *rod]),
         Actuator::Prismatic { rod } => lengths(&[*rod]),
         Actuator::Strut => true,
-        Actuator::Spherical { proximal, distal_cos } => is_circular(proximal) && sane(distal_cos),
+        Actuator::Spherical { proximal, distal_cos } => {
+            is_circular(proximal)
+                && proximal.1.lo > 0.0
+                && sane(distal_cos)
+                && distal_cos.lo > -1.0
+                && distal_cos.hi < 1.0
+        }
     };
     if !fit {
         return Some(

@@ -14,12 +14,12 @@ pub struct Budget {
     pub boxes: Option<u64>,
     /// Subdivisions of the window: cells are window / 2^depth, at most [`MAX_DEPTH`]. Deterministic.
     pub depth: Option<u32>,
-    /// Width of the finest cells in length units. Deterministic.
+    /// Width of the finest cells in length units, or in radians where angles alone vary. Deterministic.
     pub resolution: Option<f64>,
 }
 
-/// Greatest depth a paving can have.
-pub const MAX_DEPTH: u32 = 20;
+/// Greatest depth a paving can have: boxes are then some 10⁻⁸ of the window wide, still a million times the spacing of doubles.
+pub const MAX_DEPTH: u32 = 26;
 /// Greatest number of boxes a paving holds (32 bytes each, so about 1 GiB); larger budgets are cut to it.
 pub const MAX_BOXES: u64 = 40_000_000;
 
@@ -30,11 +30,12 @@ impl Budget {
     /// The depth at which this budget ends in `window`, if it names one: the depth asked for or that of the resolution, whichever is
     /// met first.
     pub fn finest(&self, window: &Window) -> Option<u32> {
-        let lengths = window.ranges.iter().zip(&window.angles).filter(|(_, angle)| !**angle);
-        let widest = lengths.map(|(r, _)| r.1 - r.0).fold(0.0, f64::max);
-        // A robot without lengths has no resolution to reach.
-        let resolution = self.resolution.filter(|_| widest > 0.0);
-        let finest = resolution.map(|r| (widest / r).log2().ceil().max(1.0) as u32);
+        let widest = |are_angles: bool| {
+            let alike = window.ranges.iter().zip(&window.angles).filter(|(_, angle)| **angle == are_angles);
+            alike.map(|(r, _)| r.1 - r.0).fold(0.0, f64::max)
+        };
+        let widest = if widest(false) > 0.0 { widest(false) } else { widest(true) };
+        let finest = self.resolution.map(|r| (widest / r).log2().ceil().max(1.0) as u32);
         self.depth.into_iter().chain(finest).min().map(|depth| depth.clamp(1, MAX_DEPTH))
     }
 
@@ -116,5 +117,24 @@ impl Stop {
     /// Of two, the one that left more undone.
     pub(crate) fn worse(self, other: Self) -> Self {
         if (other as u8) > self as u8 { other } else { self }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::robot::catalogue;
+
+    #[test]
+    fn a_resolution_is_of_angles_where_no_length_varies() {
+        let depth = |name: &str, fix: &[(usize, f64)], resolution: f64| {
+            let window = catalogue::find(name).unwrap().slice(fix).unwrap();
+            Budget { resolution: Some(resolution), ..Budget::default() }.finest(&window)
+        };
+        // 2π / 2^6 < 0.1 < 2π / 2^5.
+        assert_eq!(depth("spherical-3-rrr", &[], 0.1), Some(6));
+        assert_eq!(depth("3-rrr", &[(0, 0.0), (1, 0.0)], 0.1), Some(6));
+        assert_eq!(depth("3-rrr", &[], 1e6), Some(1));
+        assert_eq!(depth("five-bar", &[], 1e-300), Some(MAX_DEPTH));
     }
 }
