@@ -49,7 +49,10 @@ enum Held {
 }
 
 /// Most parts into which ranges of h_j are cut.
-const PARTS: usize = 48;
+const PARTS: usize = 200;
+
+/// The share of each of these ranges below which a part is cut no more: the box is too wide then.
+const SMALLEST: f64 = 1.0 / 256.0;
 
 impl<const D: usize> InMode<'_, '_, D> {
     /// Whether P certainly has no maximum in the box, in the class of the mode and the sign of det A (module documentation).
@@ -61,14 +64,19 @@ impl<const D: usize> InMode<'_, '_, D> {
             return true;
         }
         let Some(whole) = self.heights_near_zero() else { return false };
-        let cut = |heights: &Heights| {
-            halves(heights, |j| if whole[j] == ANY { 0.0 } else { heights[j].width() / whole[j].width() })
+        let share = |heights: &Heights, j: usize| match whole[j] {
+            ANY => 0.0,
+            whole => heights[j].width() / whole.width(),
         };
+        let cut = |heights: &Heights| halves(heights, |j| share(heights, j));
         let mut open = cut(&whole).to_vec();
         for _ in 0..PARTS {
             let Some(heights) = open.pop() else { return true };
             let may_be_high = |part: Self| part.existence() != Existence::Nowhere && !part.climbs(sign);
             if self.part(&heights).is_some_and(may_be_high) {
+                if (0..MOST).all(|j| share(&heights, j) <= SMALLEST) {
+                    return false;
+                }
                 open.extend(cut(&heights));
             }
         }
