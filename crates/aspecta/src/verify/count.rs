@@ -165,9 +165,8 @@ impl<'a> Leaves<'a> {
             let members: Vec<usize> = pole.iter().copied().filter(|&i| is_member(i)).collect();
             members.windows(2).for_each(|pair| sets.union(pair[0], pair[1]));
         }
-        let holds_some =
-            |i: &usize| self.all[*i].inside & bit != 0 && is_member(*i) && self.is_clear::<D>(*i, charts);
-        sets.count((0..self.all.len()).filter(holds_some))
+        let inside = (0..self.all.len()).filter(|&i| self.all[i].inside & bit != 0 && is_member(i));
+        sets.count(inside, |i| self.is_clear::<D>(i, charts))
     }
 
     /// Whether the middle of a leaf is in no chart of a later sheet, as those of sheets after the base are, which are disjoint.
@@ -205,6 +204,6 @@ impl<'a> Leaves<'a> {
             let leaf = &self.all[*i];
             is_inside(*i) && leaf.summitless & bit == 0 && !leaf.covered
         };
-        Some(sets.count((0..self.all.len()).filter(counts)))
+        Some(sets.count((0..self.all.len()).filter(counts), |_| true))
     }
 }

@@ -1,5 +1,7 @@
 //! The two graphs of the sandwich.
 
+use std::collections::BTreeSet;
+
 /// Disjoint sets of numbers.
 pub(super) struct Sets(Vec<usize>);
 
@@ -25,11 +27,19 @@ impl Sets {
         self.0[a] = b;
     }
 
-    /// How many sets hold one of the members.
-    pub(super) fn count(&mut self, members: impl Iterator<Item = usize>) -> usize {
-        let mut roots: Vec<usize> = members.map(|i| self.root(i)).collect();
-        roots.sort_unstable();
-        roots.dedup();
-        roots.len()
+    /// How many sets hold one of the members for which `serves` holds: it is asked only until one is found.
+    pub(super) fn count(
+        &mut self,
+        members: impl Iterator<Item = usize>,
+        serves: impl Fn(usize) -> bool,
+    ) -> usize {
+        let mut found = BTreeSet::new();
+        for i in members {
+            let root = self.root(i);
+            if !found.contains(&root) && serves(i) {
+                found.insert(root);
+            }
+        }
+        found.len()
     }
 }
