@@ -65,7 +65,7 @@ impl<const D: usize> InMode<'_, '_, D> {
         }
         let Some(whole) = self.heights_near_zero() else { return false };
         let share = |heights: &Heights, j: usize| match whole[j] {
-            ANY => 0.0,
+            whole if whole == ANY || whole.width() == 0.0 => 0.0,
             whole => heights[j].width() / whole.width(),
         };
         let cut = |heights: &Heights| halves(heights, |j| share(heights, j));
