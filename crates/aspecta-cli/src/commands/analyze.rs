@@ -31,9 +31,9 @@ pub struct Analyze {
     ///
     /// Without it the run goes on until the bounds on the number of aspects meet, until boxes are as fine as 1e-8 of the
     /// window, or for 4e7 boxes (4e6 where three rods can be parallel, a spherical leg can fold or det A vanishes everywhere: there
-    /// the bounds stay apart); with it never longer. `depth` and `res` (in length units, or in radians where angles alone vary) say how fine
-    /// boxes may get, so the bounds may stay apart; they also set how finely the rest is drawn and measured [default: depth 16 for 1 free coordinate, 11 for 2, 7 for 3]. Times
-    /// depend on the machine, the others do not. Drawing --out comes on top
+    /// the bounds stay apart); with it never longer. `depth` and `res` (in length units, or in radians where angles alone vary) say how
+    /// fine boxes may get, so the bounds may stay apart; they also set how finely the rest is drawn and measured [default: depth 16
+    /// for 1 free coordinate, 11 for 2, 7 for 3]. Times depend on the machine, the others do not. Drawing --out comes on top
     #[arg(long, value_parser = budget::parse, allow_hyphen_values = true)]
     budget: Option<Budget>,
     /// Hold a coordinate at a value and analyse that slice: x=-4, phi=0.5 (radians) or phi=30deg; again, or separated by

@@ -5,6 +5,8 @@
 
 mod chain;
 
+pub(super) use chain::Links;
+
 use crate::kinematics::chart::Chart;
 use crate::kinematics::leg::equation;
 use crate::num::{Interval, Jet, Scalar};

@@ -1,7 +1,7 @@
 //! Whether the charts cover what they must, and how they meet.
 
 use super::Sheet;
-use super::body::Body;
+use super::body::{Body, Links};
 use super::place::{Coordinates, Place, Setting};
 use crate::certificate::Certificate;
 use crate::kinematics::chart::{Chain, Chart, Fold};
@@ -120,13 +120,11 @@ struct Cap {
 impl Cap {
     fn of(robot: &Robot, chain: &Chain) -> Option<Self> {
         let (leg, bend) = (&robot.legs[chain.leg], chain.bend.as_ref()?);
-        let Actuator::Spherical { proximal: (cos_a, sin_a), distal_cos: cos_b } = leg.actuator else {
-            return None;
-        };
+        let links = Links::of(leg)?;
+        let ((cos_a, sin_a), (cos_b, sin_b)) = (links.proximal, links.distal);
         let side = Interval::point(if bend.back { 1.0 } else { -1.0 });
-        let sin = |cos: Interval| (Interval::point(1.0) - cos.square()).sqrt();
-        let cos = side * cos_a * cos_b + sin_a * sin(cos_b) * Interval::point(bend.half_width).sin_cos().1;
-        let radius = Interval::angle(cos, sin(cos))?;
+        let cos = side * cos_a * cos_b + sin_a * sin_b * Interval::point(bend.half_width).sin_cos().1;
+        let radius = Interval::angle(cos, (Interval::point(1.0) - cos.square()).sqrt())?;
         Some(Self { end: leg.frame[2].map(|x| side * x), joint: leg.attachment, radius })
     }
 

@@ -50,11 +50,8 @@ impl<'p, 'a, const D: usize> InMode<'p, 'a, D> {
 
     /// The ranges of h_j of the legs that are near a serial singularity for the size of the box, or `None` if none is.
     pub(super) fn heights_near_zero(&self) -> Option<Heights> {
-        let setting = self.place.setting;
-        let is_near = |j: usize, leg: &Posture| {
-            let has_root = !setting.is_own(j) && setting.robot.legs[j].actuator.postures() == 2;
-            has_root && leg.reach.lo <= NEAR * leg.reach.hi
-        };
+        let is_near =
+            |j: usize, leg: &Posture| self.place.setting.has_root(j) && leg.reach.lo <= NEAR * leg.reach.hi;
         let height = |j: usize| match self.legs.get(j) {
             Some(leg) if leg.loose || is_near(j, leg) => leg.reach.sqrt(),
             _ => ANY,

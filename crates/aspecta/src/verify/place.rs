@@ -1,6 +1,6 @@
 //! What intervals prove of one box of a chart, leg by leg.
 
-use super::body::{Body, LegState, MOST, joint};
+use super::body::{Body, LegState, Links, MOST, joint};
 use super::in_mode::InMode;
 use crate::aspect::Scale;
 use crate::kinematics::WorkingMode;
@@ -44,6 +44,11 @@ impl<'a> Setting<'a> {
     /// Whether leg j is the chart's own, so that its q is the first coordinate.
     pub(super) fn is_own(&self, j: usize) -> bool {
         self.chart.leg() == Some(j)
+    }
+
+    /// Whether q of leg j comes from the pose by the root of H_j.
+    pub(super) fn has_root(&self, j: usize) -> bool {
+        !self.is_own(j) && self.robot.legs[j].actuator.postures() == 2
     }
 
     /// A box cut in two across the coordinate in which it is widest, in proportion to the window.
@@ -196,7 +201,7 @@ impl<'a, const D: usize> Place<'a, D> {
         };
         let mut over = self.over.leg(j, &span.over, q);
         let at_middle = self.at_middle.leg(j, &span.at_middle, found.middle);
-        if !is_coordinate && actuator.postures() == 2 {
+        if self.setting.has_root(j) {
             // |B_jj| is √H, twice that for prismatic legs.
             let factor = if matches!(actuator, Actuator::Prismatic { .. }) { 2.0 } else { 1.0 };
             let root = reach.sqrt() * Interval::point(factor * sign);
@@ -278,14 +283,10 @@ impl<'a, const D: usize> Place<'a, D> {
 
     /// How far beyond the boundary of a bend's chart v is along the motor's axis e: e·v = cos a cos b − sin a sin b cos ψ, ψ being the elbow's angle.
     fn bend_margin(&self, leg: usize, bend: &Bend) -> Interval {
-        let Actuator::Spherical { proximal: (cos_a, sin_a), distal_cos: cos_b } =
-            self.setting.robot.legs[leg].actuator
-        else {
-            return Interval::ENTIRE;
-        };
+        let Some(links) = Links::of(&self.setting.robot.legs[leg]) else { return Interval::ENTIRE };
+        let ((cos_a, sin_a), (cos_b, sin_b)) = (links.proximal, links.distal);
         let span = &self.spans[leg];
         let along = self.range(&span.over[D - 1], span.at_middle[D - 1], None);
-        let sin_b = (ONE - cos_b.square()).sqrt();
         let at_end = sin_a * sin_b * Interval::point(bend.half_width).sin_cos().1;
         let beyond = along - cos_a * cos_b;
         (if bend.back { beyond } else { -beyond }) - at_end

@@ -154,9 +154,9 @@ impl<const D: usize> InMode<'_, '_, D> {
     /// whose H_j is small, because the gradients of det A and H_j are nearly parallel there.
     fn choices_of_loose(&self) -> Vec<Vec<usize>> {
         let setting = self.place.setting;
-        let rooted = |j: usize| !setting.is_own(j) && setting.robot.legs[j].actuator.postures() == 2;
         let among = |most: f64| -> Vec<usize> {
-            let is_small = |j: usize| rooted(j) && self.legs[j].reach.hi <= most * setting.scale.reach[j];
+            let is_small =
+                |j: usize| setting.has_root(j) && self.legs[j].reach.hi <= most * setting.scale.reach[j];
             (0..self.legs.len()).filter(|&j| self.legs[j].loose || is_small(j)).collect()
         };
         let mut choices: Vec<Vec<usize>> = [0.0, 0.1, 0.3, 1.0].map(among).to_vec();
@@ -169,33 +169,32 @@ impl<const D: usize> InMode<'_, '_, D> {
     /// cross products:
     ///
     /// - q_j: n_j·ẏ = 0 and q̇_j = 0;
-    /// - h_j: ∇H_j·ẏ = 0. As B_jj² is H_j, up to a constant, it does not change, and ∂B_jj/∂y·ẏ + ∂B_jj/∂q_j q̇_j = 0 gives q̇_j.
+    /// - h_j: ∇H_j·ẏ = 0. As B_jj² is H_j, up to a constant, it does not change, and ∂B_jj/∂y·ẏ + ∂B_jj/∂q_j q̇_j = 0 gives q̇_j. A strut has no H_j.
     fn velocities(&self, loose: &[usize], held: Held) -> Option<Vec<Velocity>> {
         let along_axes = |gradient: &[Interval]| -> Direction { std::array::from_fn(|a| gradient[a]) };
         let normal = |j: usize| along_axes(&self.legs[j].over.equation.gradient);
         let bend = |j: usize| self.legs[j].over.slope.gradient[OWN];
-        if held == Held::Height && loose.iter().any(|&j| bend(j).contains(0.0)) {
+        let holds_height = |j: usize| held == Held::Height && self.place.setting.has_root(j);
+        if loose.iter().any(|&j| holds_height(j) && bend(j).contains(0.0)) {
             return None;
         }
-        let normals: Vec<Direction> = match held {
-            Held::Joint => loose.iter().map(|&j| normal(j)).collect(),
-            Held::Height => loose.iter().map(|&j| self.place.ascent[j]).collect(),
-        };
+        let across = |&j: &usize| if holds_height(j) { self.place.ascent[j] } else { normal(j) };
+        let normals: Vec<Direction> = loose.iter().map(across).collect();
         let velocity = |(direction, own): (Direction, Option<usize>)| {
             let own = own.map(|i| loose[i]);
             let factor = own.map_or(ONE, |j| -self.legs[j].over.slope.value);
             let along = direction.map(|x| x * factor);
-            let joint = |(j, leg): (usize, &Posture)| match held {
-                _ if own == Some(j) => dot(&normal(j), &direction),
-                _ if !loose.contains(&j) => dot(&leg.rate, &along),
-                Held::Joint => ZERO,
-                Held::Height => -(dot(&along_axes(&leg.over.slope.gradient), &along) / bend(j)),
+            let is_level = |j: usize| own != Some(j) && holds_height(j);
+            let joint = |(j, leg): (usize, &Posture)| match () {
+                () if own == Some(j) => dot(&normal(j), &direction),
+                () if !loose.contains(&j) => dot(&leg.rate, &along),
+                () if is_level(j) => -(dot(&along_axes(&leg.over.slope.gradient), &along) / bend(j)),
+                () => ZERO,
             };
             let mut joints = [ZERO; MOST];
             let legs = self.legs.iter().map(|leg| &**leg);
             joints.iter_mut().zip(legs.enumerate().map(joint)).for_each(|(place, q)| *place = q);
-            let is_level = |j: &&usize| held == Held::Height && own != Some(**j);
-            let level = loose.iter().filter(is_level).fold(0, |level, j| level | 1 << j);
+            let level = loose.iter().filter(|j| is_level(**j)).fold(0, |level, j| level | 1 << j);
             Velocity { vector: joined(&along, &joints), level }
         };
         Some(directions(self.place.setting.axes.len(), &normals)?.into_iter().map(velocity).collect())

@@ -67,13 +67,13 @@ impl<const D: usize> Body<'_, Interval, D> {
 }
 
 /// (cos, sin) of the angles of a spherical leg's links.
-struct Links {
-    proximal: (Interval, Interval),
-    distal: (Interval, Interval),
+pub(in crate::verify) struct Links {
+    pub proximal: (Interval, Interval),
+    pub distal: (Interval, Interval),
 }
 
 impl Links {
-    fn of(leg: &Leg) -> Option<Self> {
+    pub(in crate::verify) fn of(leg: &Leg) -> Option<Self> {
         let Actuator::Spherical { proximal, distal_cos } = leg.actuator else { return None };
         let distal_sin = (Interval::point(1.0) - distal_cos.square()).sqrt();
         Some(Self { proximal, distal: (distal_cos, distal_sin) })
