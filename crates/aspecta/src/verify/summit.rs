@@ -250,3 +250,67 @@ fn directions(count: usize, normals: &[Direction]) -> Option<Vec<(Direction, Opt
         _ => return None,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::aspect::Scale;
+    use crate::kinematics::chart::Chart;
+    use crate::num::Random;
+    use crate::robot::{Robot, catalogue};
+    use crate::verify::place::{Place, Setting};
+
+    /// The derivative of a function along a velocity is 0, as nearly as a box so small can tell.
+    #[track_caller]
+    fn assert_constant(gradient: &Vector, velocity: &Velocity) {
+        let change = dot(gradient, &velocity.vector);
+        let size = |v: &Vector| v.iter().map(|x| x.magnitude()).sum::<f64>();
+        let small = 1e-3 * size(gradient) * size(&velocity.vector);
+        assert!(change.contains(0.0) && change.magnitude() <= small, "{change:?}, above {small:e}");
+    }
+
+    /// At random configurations of a robot, whichever legs count as loose; returns how many velocities held some h_j.
+    fn look_at<const D: usize>(robot: &Robot) -> usize {
+        let (window, modes) = (robot.slice(&[]).unwrap(), robot.working_modes());
+        let scale = Scale::of(robot, &window, &modes);
+        let setting = Setting::new(robot, &Chart::Pose, window, &scale);
+        let (mut random, mut level) = (Random::new(5), 0);
+        for k in 0..400 {
+            let at = setting.window.ranges.iter().map(|&range| random.within(range)).collect::<Vec<_>>();
+            let y = std::array::from_fn(|k| at.get(k).map_or(ZERO, |&x| Interval::new(x - 1e-9, x + 1e-9)));
+            let place = Place::<D>::new(&setting, y);
+            let Some(robot) = place.in_mode(modes[k % modes.len()]) else { continue };
+            if robot.existence() != Existence::Everywhere {
+                continue;
+            }
+            for (held, set) in
+                [Held::Joint, Held::Height].into_iter().flat_map(|h| (0..8).map(move |s| (h, s)))
+            {
+                let loose: Vec<usize> = (0..robot.legs.len()).filter(|j| set >> j & 1 == 1).collect();
+                for velocity in robot.velocities(&loose, held).unwrap_or_default() {
+                    for (j, leg) in robot.legs.iter().enumerate() {
+                        assert_constant(&of_leg(j, &leg.over.equation.gradient), &velocity);
+                        if velocity.level >> j & 1 == 1 {
+                            assert_constant(&of_leg(j, &leg.over.slope.gradient), &velocity);
+                            level += 1;
+                        }
+                    }
+                }
+            }
+        }
+        level
+    }
+
+    #[test]
+    fn velocities_are_tangent_and_hold_what_they_say() {
+        for name in ["five-bar", "2-prr", "3-rrr", "3-prr", "3-rpr"] {
+            // Struts have no h_j.
+            assert_eq!(look_at::<2>(&catalogue::find(name).unwrap()) > 50, name != "3-rpr", "{name}");
+        }
+        for name in ["delta", "linear-delta", "orthoglide"] {
+            assert!(look_at::<3>(&catalogue::find(name).unwrap()) > 50, "{name}");
+        }
+        let sphere = include_str!("../../tests/fixtures/sphere.toml");
+        assert!(look_at::<3>(&Robot::from_toml(sphere, "sphere.toml").unwrap()) > 50);
+    }
+}
