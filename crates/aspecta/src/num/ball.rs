@@ -161,7 +161,7 @@ impl Div for Ball {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::two_sum;
+    use crate::num::exact::two_sum;
     use proptest::prelude::*;
 
     /// Whether s + e exactly, |e| far below |s|, lies in `b`, judged with room for nothing but the sign of e.

@@ -100,7 +100,7 @@ impl Mul for Disc {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::{Scalar, two_sum};
+    use crate::num::{Scalar, exact::two_sum};
     use proptest::prelude::*;
 
     /// The real and imaginary part of an expression in intervals, which hold the exact value of doubles.

@@ -1,6 +1,7 @@
 //! Closed intervals with outward rounding.
 
 use super::Scalar;
+use super::trig::{self, Turned};
 use serde::{Deserialize, Serialize};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -117,35 +118,19 @@ impl Interval {
         i8::from(self.is_positive()) - i8::from(self.is_negative())
     }
 
-    /// Whether 2π`k` + `offset` may lie inside for some integer k.
-    fn may_hold_turn(self, offset: Self) -> bool {
-        let turn = Self::PI * Self::point(2.0);
-        let first = ((self.lo - offset.hi) / turn.hi).floor() - 1.0;
-        let last = ((self.hi - offset.lo) / turn.lo).ceil() + 1.0;
-        let mut k = first;
-        while k <= last {
-            let x = turn * Self::point(k) + offset;
-            if x.lo <= self.hi && self.lo <= x.hi {
-                return true;
-            }
-            k += 1.0;
-        }
-        false
-    }
-
-    /// The range of a cosine (given pointwise by `f`) whose maxima lie at 2πk + `peak`.
-    fn wave(self, f: impl Fn(f64) -> f64, peak: Self) -> Self {
-        if !(self.hi - self.lo < 6.3 && self.magnitude() < 1e9) {
-            return Self::new(-1.0, 1.0);
-        }
-        let a = f(self.lo);
-        if self.lo == self.hi {
-            return Self::new(down(a).max(-1.0), up(a).min(1.0));
-        }
-        let b = f(self.hi);
-        let high = if self.may_hold_turn(peak) { 1.0 } else { up(a.max(b)).min(1.0) };
-        let low = if self.may_hold_turn(peak + Self::PI) { -1.0 } else { down(a.min(b)).max(-1.0) };
-        Self::new(low, high)
+    /// Encloses sines and cosines from one angle to another: between extrema, which lie at multiples of π/2, both are monotone.
+    #[inline(always)]
+    pub(super) fn waves(from: Turned, to: Turned) -> (Self, Self) {
+        // Whether (4n + k) π/2 lies there for an integer n.
+        let holds = |k: i64| from.ceil + ((k - from.ceil) & 3) <= to.floor;
+        // Zero is the only angle there is, as no other double is a multiple of π/2.
+        let exact = from.floor == to.ceil;
+        let wave = |a: f64, b: f64, peak: i64| {
+            let (lo, hi) = (a.min(b), a.max(b));
+            let (lo, hi) = if exact { (lo, hi) } else { (down(lo).max(-1.0), up(hi).min(1.0)) };
+            Self { lo: if holds(peak + 2) { -1.0 } else { lo }, hi: if holds(peak) { 1.0 } else { hi } }
+        };
+        (wave(from.sin, to.sin, 1), wave(from.cos, to.cos, 0))
     }
 
     /// The angle of the vectors (c, s), c ∈ `c`, s ∈ `s`, in radians: an interval of width < 2π that
@@ -157,10 +142,10 @@ impl Interval {
         }
         // The box sees the origin from outside: its angles, measured from that of its centre, stay
         // within (−π, π), and the extremes are at corners.
-        let centre = s.mid().atan2(c.mid());
+        let centre = trig::atan2(s.mid(), c.mid());
         let mut range: Option<Self> = None;
         for (x, y) in corners {
-            let a = core_math::atan2(y, x);
+            let a = trig::atan2(y, x);
             let a = if a - centre > std::f64::consts::PI {
                 Self::new(down(a), up(a)) - Self::PI * Self::point(2.0)
             } else if centre - a > std::f64::consts::PI {
@@ -193,8 +178,11 @@ impl Scalar for Interval {
     }
 
     fn sin_cos(self) -> (Self, Self) {
-        let quarter = Self::PI * Self::point(0.5);
-        (self.wave(core_math::sin, quarter), self.wave(core_math::cos, Self::point(0.0)))
+        if self.magnitude() >= trig::MOST_ANGLE {
+            return (Self::new(-1.0, 1.0), Self::new(-1.0, 1.0));
+        }
+        let first = trig::sin_cos(self.lo);
+        Self::waves(first, if self.lo == self.hi { first } else { trig::sin_cos(self.hi) })
     }
 }
 
@@ -258,7 +246,7 @@ impl std::fmt::Display for Interval {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::two_sum;
+    use crate::num::exact::two_sum;
     use proptest::prelude::*;
 
     /// Whether the exact number s + e (|e| far below |s|) lies in `i`.

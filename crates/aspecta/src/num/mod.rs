@@ -13,11 +13,13 @@
 
 mod ball;
 mod disc;
+mod exact;
 mod interval;
 mod jet;
 mod pack;
 mod random;
 mod slope;
+mod trig;
 mod written;
 
 pub use ball::Ball;
@@ -146,12 +148,4 @@ pub(crate) fn padded<const K: usize>(values: &[f64]) -> [f64; K] {
 /// An angle without its full turns: in [−π, π].
 pub fn without_turns(angle: f64) -> f64 {
     angle - std::f64::consts::TAU * (angle / std::f64::consts::TAU).round()
-}
-
-/// x + y = s + e exactly (TwoSum), so that tests know the exact sum without big numbers.
-#[cfg(test)]
-fn two_sum(x: f64, y: f64) -> (f64, f64) {
-    let s = x + y;
-    let b = s - x;
-    (s, (x - (s - b)) + (y - b))
 }

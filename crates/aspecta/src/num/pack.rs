@@ -1,7 +1,7 @@
 //! Eight intervals at once.
 
 use super::interval::{ETA, PHI};
-use super::{Interval, Scalar};
+use super::{Interval, Scalar, trig};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Intervals in a [`Pack`]: the children of an octree cell.
@@ -144,8 +144,27 @@ impl Scalar for Pack {
     }
 
     fn sin_cos(self) -> (Self, Self) {
-        let both = std::array::from_fn::<_, LANES, _>(|k| self.lane(k).sin_cos());
-        (Self::from_fn(|k| both[k].0), Self::from_fn(|k| both[k].1))
+        let within = |x: &[f64; LANES]| x.iter().all(|x| x.abs() < trig::MOST_ANGLE);
+        if !(within(&self.lo) && within(&self.hi)) {
+            let both = std::array::from_fn::<_, LANES, _>(|k| self.lane(k).sin_cos());
+            return (Self::from_fn(|k| both[k].0), Self::from_fn(|k| both[k].1));
+        }
+        let (mut sin, mut cos) = (Self::zero(), Self::zero());
+        let mut set = |k: usize, (s, c): (Interval, Interval)| {
+            (sin.lo[k], sin.hi[k], cos.lo[k], cos.hi[k]) = (s.lo, s.hi, c.lo, c.hi);
+        };
+        // Centres are points: half the work.
+        if self.lo == self.hi {
+            for k in 0..LANES {
+                let x = trig::sin_cos(self.lo[k]);
+                set(k, Interval::waves(x, x));
+            }
+        } else {
+            for k in 0..LANES {
+                set(k, Interval::waves(trig::sin_cos(self.lo[k]), trig::sin_cos(self.hi[k])));
+            }
+        }
+        (sin, cos)
     }
 
     #[inline(always)]
@@ -232,6 +251,9 @@ mod tests {
                 prop_assert_eq!(p.square().lane(k), a[k].square());
                 prop_assert_eq!(p.sqrt().lane(k), a[k].sqrt());
                 prop_assert_eq!(p.scale(b[0]).lane(k), a[k] * b[0]);
+                let ((sin, cos), centre) = (p.sin_cos(), Pack::from_fn(|k| Interval::point(a[k].lo)).sin_cos());
+                prop_assert_eq!((sin.lane(k), cos.lane(k)), a[k].sin_cos());
+                prop_assert_eq!((centre.0.lane(k), centre.1.lane(k)), Interval::point(a[k].lo).sin_cos());
             }
         }
     }
