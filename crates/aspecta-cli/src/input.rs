@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use aspecta::domain::Map;
 use aspecta::kinematics::WorkingMode;
 use aspecta::robot::Robot;
-use aspecta_cli::words::count;
+use aspecta_view::words::count;
 use std::fmt::Display;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};

@@ -7,7 +7,7 @@ use crate::input;
 use crate::output::{self, note};
 use aspecta::aspect::{Analysis, Options, analyze};
 use aspecta::paving::{Budget, Stop};
-use aspecta_cli::{file, report};
+use aspecta_view::{file, write_report};
 use clap::Args;
 use std::io::Write;
 use std::path::PathBuf;
@@ -82,7 +82,7 @@ impl Analyze {
         let Some(directory) = &self.out else { return Ok(()) };
         // People see the numbers while the figures are drawn.
         out.flush()?;
-        report::write(analysis, directory).map_err(Failure::in_directory(directory))?;
+        write_report(analysis, directory).map_err(Failure::in_directory(directory))?;
         let written = format!("report: {}", directory.join("report.html").display());
         if self.json {
             note(&written);

@@ -3,7 +3,7 @@
 use super::doubts::warn_of_architecture;
 use crate::failure::{Answer, Failure};
 use aspecta::robot::{FileError, Robot};
-use aspecta_cli::words::count;
+use aspecta_view::words::count;
 use clap::Args;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};

@@ -9,7 +9,7 @@ use aspecta::domain::cusps::{
     self, CurveEnd, Cusp, CuspCurve, CuspCurves, Doubt, Options, Proof, Undecided, cusp_curves, cusps,
 };
 use aspecta::robot::Robot;
-use aspecta_cli::words::count;
+use aspecta_view::words::count;
 use clap::Args;
 use serde::Serialize;
 use std::io::Write;

@@ -12,9 +12,8 @@ use aspecta::domain::characteristic::GivenUp;
 use aspecta::domain::{DomainError, Domains as Found, Map, MappedAspect, Surfaces};
 use aspecta::paving::Stop;
 use aspecta::robot::Robot;
-use aspecta_cli::figure::regions::Cut;
-use aspecta_cli::words::count;
-use aspecta_cli::{domains as figures, file};
+use aspecta_view::words::count;
+use aspecta_view::{Cut, file, write_domains};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 use std::io::Write;
@@ -200,7 +199,7 @@ impl Domains {
             incomplete(domains.aspect, *given_up);
             let cut = Cut { map, domains, boundary, surface: characteristic };
             let choice = self.drawing.choice();
-            for path in figures::write(&cut, &choice, directory).map_err(Failure::in_directory(directory))? {
+            for path in write_domains(&cut, &choice, directory).map_err(Failure::in_directory(directory))? {
                 self.written(out, &path)?;
             }
         }

@@ -5,8 +5,8 @@ use crate::output::{Align, Table, brief, note};
 use aspecta::aspect::{Analysis, Doubt, DoubtKind};
 use aspecta::kinematics::seems_architecturally_singular;
 use aspecta::robot::Robot;
-use aspecta_cli::doubt::{ARCHITECTURE, largest_first, place, reasons};
-use aspecta_cli::words::count;
+use aspecta_view::doubt::{ARCHITECTURE, largest_first, place, reasons};
+use aspecta_view::words::count;
 use std::io::Write;
 
 /// Warns of a robot that is singular wherever it goes.

@@ -1,7 +1,7 @@
 //! What `domains --out` writes.
 
-use aspecta_cli::domains::{Choice, Format};
-use clap::Args;
+use aspecta_view::{Choice, MeshFormat};
+use clap::{Args, ValueEnum};
 
 /// Options of pictures and meshes.
 #[derive(Args)]
@@ -14,12 +14,33 @@ pub struct Drawing {
     hold: String,
 }
 
+/// A format of meshes.
+#[derive(Clone, Copy, ValueEnum)]
+enum Format {
+    /// Polygon File Format, a file for each surface
+    Ply,
+    /// Binary glTF 2.0, both surfaces in one file, coloured by what bounds the aspect
+    Glb,
+    /// VTK PolyData, a file for each surface, with joint vectors
+    Vtp,
+}
+
+impl From<Format> for MeshFormat {
+    fn from(format: Format) -> Self {
+        match format {
+            Format::Ply => Self::Ply,
+            Format::Glb => Self::Glb,
+            Format::Vtp => Self::Vtp,
+        }
+    }
+}
+
 const JOINTS: [&str; 3] = ["q1", "q2", "q3"];
 
 impl Drawing {
     /// As the library wants it.
     pub fn choice(&self) -> Choice {
         let held = JOINTS.iter().position(|joint| *joint == self.hold).unwrap_or(2);
-        Choice { meshes: self.meshes.clone(), held }
+        Choice { meshes: self.meshes.iter().copied().map(MeshFormat::from).collect(), held }
     }
 }

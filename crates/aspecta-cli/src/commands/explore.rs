@@ -10,7 +10,7 @@ use crate::output::{Align, FORMAT_VERSION, Table, brief, json, note};
 use aspecta::motion::explore::{End, Exploration, ExploredClass, explore};
 use aspecta::paving::Budget;
 use aspecta::robot::Robot;
-use aspecta_cli::words::count;
+use aspecta_view::words::count;
 use clap::Args;
 use serde::Serialize;
 use std::io::Write;

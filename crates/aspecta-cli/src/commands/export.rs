@@ -6,7 +6,7 @@ use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
 use crate::output::note;
 use aspecta::kinematics::Singularity;
-use aspecta_cli::export::mjcf;
+use aspecta_view::mjcf;
 use clap::{Args, Subcommand};
 use std::io::Write;
 use std::path::PathBuf;

@@ -7,7 +7,7 @@ use crate::output::{FORMAT_VERSION, Format, FormatArgs, exact, json_line};
 use aspecta::kinematics::WorkingMode;
 use aspecta::motion::follow::{Follower, InverseFollower, JointStep, Refusal, Step};
 use aspecta::robot::Robot;
-use aspecta_cli::words::count;
+use aspecta_view::words::count;
 use clap::Args;
 use serde::Serialize;
 use std::io::Write;

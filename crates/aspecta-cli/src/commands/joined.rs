@@ -5,7 +5,7 @@ use crate::failure::{Answer, Failure};
 use crate::output::{FORMAT_VERSION, Format, ShownArgs, json};
 use aspecta::motion::explore::{JoinedSolutions, SharedClass};
 use aspecta::robot::Robot;
-use aspecta_cli::words::count;
+use aspecta_view::words::count;
 use serde::Serialize;
 use std::io::Write;
 

@@ -7,7 +7,7 @@ use crate::input::Columns;
 use crate::output::{Align, Table, exact, number};
 use aspecta::kinematics::Solution;
 use aspecta::robot::Robot;
-use aspecta_cli::words::count;
+use aspecta_view::words::count;
 use std::io::Write;
 
 /// A solution, its number from 1, and what it belongs to, if that is known.

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::output::{number, unsigned};
 use aspecta::motion::{Joined, Least, Obstacle, PathCheck};
 use aspecta::robot::Robot;
-use aspecta_cli::figure::profile::failure;
+use aspecta_view::failure;
 use std::io::Write;
 
 /// Prints the verdicts, obstacles, clearances and ends.

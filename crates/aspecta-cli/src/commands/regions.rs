@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use crate::output::{Align, Table, brief};
 use aspecta::domain::{Domains, Map};
 use aspecta::robot::Window;
-use aspecta_cli::words::count;
+use aspecta_view::words::count;
 use std::io::Write;
 
 /// Prints regions, uniqueness domains and what was checked of them.

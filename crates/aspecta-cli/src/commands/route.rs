@@ -9,7 +9,7 @@ use aspecta::motion::modes::Route;
 use aspecta::motion::plan::Plan;
 use aspecta::motion::{Clearance, Joined, Least, PathCheck, PathOptions, check_poses};
 use aspecta::robot::{Platform, Robot};
-use aspecta_cli::words::count;
+use aspecta_view::words::count;
 use std::io::Write;
 
 /// The stretches of a route as they are driven: each with the way to its crossing and back.

@@ -6,7 +6,7 @@ use crate::input::Columns;
 use crate::output::{Align, Format, Table, exact, number};
 use aspecta::kinematics::{Solution, WorkingMode};
 use aspecta::robot::Robot;
-use aspecta_cli::words::count;
+use aspecta_view::words::count;
 use serde::Serialize;
 use std::io::Write;
 

@@ -10,8 +10,8 @@ use aspecta::aspect::{
 use aspecta::kinematics::WorkingMode;
 use aspecta::paving::Stop;
 use aspecta::robot::Robot;
-use aspecta_cli::report::EARLIER_NEED;
-use aspecta_cli::words::{between, count};
+use aspecta_view::EARLIER_NEED;
+use aspecta_view::words::{between, count};
 use std::io::Write;
 
 /// Columns of the terminal that the summary is made for.

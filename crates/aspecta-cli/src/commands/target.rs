@@ -1,7 +1,7 @@
 //! A file that is to be written once the long work is done.
 
 use crate::failure::Failure;
-use aspecta_cli::file;
+use aspecta_view::file;
 use std::fs;
 use std::path::{Path, PathBuf};
 

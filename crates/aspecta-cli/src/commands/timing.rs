@@ -6,7 +6,7 @@ use crate::input::Columns;
 use crate::output::{exact, number};
 use aspecta::motion::time::{JointLimits, Trajectory};
 use aspecta::robot::Robot;
-use aspecta_cli::words::count;
+use aspecta_view::words::count;
 use std::io::Write;
 use std::path::Path;
 

@@ -7,7 +7,7 @@ use crate::output::{self, Align, Table, note};
 use aspecta::certificate::{Certificate, CertificateError, Claim};
 use aspecta::robot::Robot;
 use aspecta::verify::{Checked, ENOUGH, Verdict, verify};
-use aspecta_cli::words::count;
+use aspecta_view::words::count;
 use clap::Args;
 use std::io::Write;
 use std::path::{Path, PathBuf};

@@ -1,0 +1,6 @@
+//! What every file in XML needs: SVG, MJCF and VTK.
+
+/// `text` with the characters that mean something in XML written out.
+pub fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
