@@ -2,6 +2,7 @@
 
 use aspecta::aspect::AnalysisError;
 use aspecta::certificate::CertificateError;
+use aspecta::domain::DomainError;
 use aspecta::domain::cusps::CuspError;
 use aspecta::kinematics::KinematicsError;
 use aspecta::motion::PathError;
@@ -78,6 +79,12 @@ impl Failure {
     /// What an error of the file system in the directory of `--out` is to the user.
     pub fn in_directory(directory: &Path) -> impl Fn(io::Error) -> Self {
         move |error| Self::Directory { directory: directory.to_owned(), error }
+    }
+}
+
+impl From<DomainError> for Failure {
+    fn from(error: DomainError) -> Self {
+        Self::Input(error.to_string())
     }
 }
 

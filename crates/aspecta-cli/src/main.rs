@@ -2,10 +2,13 @@
 //! results on stdout (with `--json` nothing but JSON), messages on stderr, exit status 0 done, 1 ran
 //! but the answer is negative or undecided, 2 bad input.
 
+mod args;
 mod commands;
 mod failure;
 mod input;
 mod output;
+mod show;
+mod work;
 
 use clap::Parser;
 use commands::Command;

@@ -1,10 +1,11 @@
 //! `aspecta analyze`: working modes and generalized aspects.
 
-use super::target::Target;
-use super::{budget, fix, summary, watch};
+use crate::args::{budget, fix};
 use crate::failure::{Answer, Failure};
 use crate::input;
-use crate::output::{self, note};
+use crate::output::{self, Target, note};
+use crate::show::summary;
+use crate::work::watch::watched;
 use aspecta::aspect::{Analysis, Options, analyze};
 use aspecta::paving::{Budget, Stop};
 use aspecta_view::{file, write_report};
@@ -60,7 +61,7 @@ impl Analyze {
         let budget = self.budget.unwrap_or_default();
         let modes = input::modes(&robot, &self.mode)?;
         let options = Options { budget, fix, modes, certificate: proof.is_some() };
-        let analysis = watch::watched(self.threads, |control| analyze(&robot, &options, control))??;
+        let analysis = watched(self.threads, |control| analyze(&robot, &options, control))??;
         self.print(out, &analysis)?;
         if let (Some(target), Some(certificate)) = (&proof, &analysis.certificate) {
             let text = certificate.to_json().map_err(|e| Failure::Input(format!("certificate: {e}")))?;

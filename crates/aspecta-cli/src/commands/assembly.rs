@@ -1,12 +1,12 @@
 //! `aspecta assembly`: the poses of a joint vector by aspects, and how to change from one to another.
 
-use super::joined;
-use super::numbered::{self, IN_ONE, Numbered, list};
-use super::planning::{self, Planned, Planning, plan_over_roadmap};
-use super::queries::Labels;
+use crate::args::planning::Planning;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
-use crate::output::{FORMAT_VERSION, Format, json, note, number};
+use crate::output::{FORMAT_VERSION, Format, Labels, json, note, number};
+use crate::show::numbered::{self, IN_ONE, Numbered, list};
+use crate::show::{joined, motion};
+use crate::work::planning::{Planned, plan_over_roadmap};
 use aspecta::kinematics::{DirectSolutions, WorkingMode};
 use aspecta::motion::assembly::{
     AssemblyMode, AssemblyModes, CuspRound, Fold, assembly_modes, cusps_round, folds,
@@ -94,7 +94,7 @@ impl Assembly {
         if let Some(pair) = chosen {
             let end = |k: usize| Configuration { pose: &solutions[k - 1].pose, mode: solutions[k - 1].mode };
             if let Some(refused) = self.planning.refused(&robot, pair.map(end), through, &options)? {
-                return planning::print(out, &robot, &refused, &self.planning);
+                return motion::print(out, &robot, &refused, &self.planning);
             }
         }
         if through {
@@ -161,7 +161,7 @@ impl Assembly {
             let change = plan_over_roadmap(robot, from.mode, ends, options, (effort, control))?;
             Ok(self.planning.moving.film(robot, None, change))
         })?;
-        planning::print(out, robot, &change, &self.planning)
+        motion::print(out, robot, &change, &self.planning)
     }
 
     fn print(&self, out: &mut dyn Write, robot: &Robot, found: &Found) -> Result<Answer, Failure> {
@@ -179,7 +179,7 @@ impl Assembly {
             }
             return Ok(Answer::from(found.modes.complete && !found.modes.solutions.is_empty()));
         };
-        let answer = planning::print(out, robot, change, &self.planning)?;
+        let answer = motion::print(out, robot, change, &self.planning)?;
         if let (Format::Table, Some((folds, cusps))) = (self.planning.shown.format(), &found.explained) {
             explain(out, robot, folds, cusps, self.planning.shown.deg)?;
         } else if self.explain && self.planning.shown.format() != Format::Table {

@@ -1,7 +1,7 @@
 //! `aspecta check`: whether a robot file is right.
 
-use super::doubts::warn_of_architecture;
 use crate::failure::{Answer, Failure};
+use crate::show::doubts::warn_of_architecture;
 use aspecta::robot::{FileError, Robot};
 use aspecta_view::words::count;
 use clap::Args;

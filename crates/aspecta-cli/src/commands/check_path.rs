@@ -1,10 +1,11 @@
 //! `aspecta check-path`: whether a path meets a singularity, or comes too near to one.
 
-use super::checked_path::PathArgs;
-use super::path_verdict::print;
+use crate::args::format::FormatArgs;
+use crate::args::path::PathArgs;
 use crate::failure::{Answer, Failure};
 use crate::input::Columns;
-use crate::output::{FORMAT_VERSION, Format, FormatArgs, exact, json, note};
+use crate::output::{FORMAT_VERSION, Format, exact, json, note};
+use crate::show::verdict;
 use aspecta::motion::PathCheck;
 use aspecta::robot::Robot;
 use aspecta_view::{Motion, figure_11, file};
@@ -57,7 +58,7 @@ impl CheckPath {
                 json(out, &Document { format_version: FORMAT_VERSION, robot: &robot.name, check: &check })?;
             }
             Format::Csv => print_profile(out, &robot, &check)?,
-            Format::Table => print(out, &robot, &check, &self.path, lines)?,
+            Format::Table => verdict::print(out, &robot, &check, &self.path, lines)?,
         }
         if let Some([figure, motion]) = drawn {
             let written = format!("figure: {}\nmotion: {}", figure.display(), motion.display());

@@ -1,10 +1,10 @@
 //! `aspecta cusps`: where three direct solutions meet.
 
-use super::queries::Labels;
-use super::{fix, watch};
+use crate::args::fix;
 use crate::failure::{Answer, Failure};
 use crate::input;
-use crate::output::{Align, FORMAT_VERSION, Table, json, note, number};
+use crate::output::{Align, FORMAT_VERSION, Labels, Table, json, note, number};
+use crate::work::watch::watched;
 use aspecta::domain::cusps::{
     self, CurveEnd, Cusp, CuspCurve, CuspCurves, Doubt, Options, Proof, Undecided, cusp_curves, cusps,
 };
@@ -62,7 +62,7 @@ impl Cusps {
         let mode = self.mode.as_deref().map(|m| input::mode(&robot, m)).transpose()?;
         let options = Options { fix: fix::joints(&robot, &self.fix)?, mode, boxes: self.boxes };
         if options.fix.is_empty() && robot.dof() == 3 {
-            let found = watch::watched(self.threads, |control| cusp_curves(&robot, mode, control))??;
+            let found = watched(self.threads, |control| cusp_curves(&robot, mode, control))??;
             if self.json {
                 json(out, &Document { format_version: FORMAT_VERSION, found: &found })?;
             } else {
@@ -70,7 +70,7 @@ impl Cusps {
             }
             return Ok(Answer::from(!found.curves.is_empty()));
         }
-        let found = watch::watched(self.threads, |control| cusps(&robot, &options, control))??;
+        let found = watched(self.threads, |control| cusps(&robot, &options, control))??;
         if self.json {
             json(out, &Document { format_version: FORMAT_VERSION, found: &found })?;
         } else {

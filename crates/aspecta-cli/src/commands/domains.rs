@@ -1,12 +1,14 @@
 //! `aspecta domains`: basic regions and uniqueness domains.
 
-use super::drawing::Drawing;
-use super::mapping::{Making, Part, Source, Wanted};
-use super::target::Target;
-use super::{fix, regions, watch};
+use crate::args::drawing::Drawing;
+use crate::args::fix;
+use crate::args::making::Making;
 use crate::failure::{Answer, Failure};
 use crate::input;
-use crate::output::{self, FORMAT_VERSION, note};
+use crate::output::{self, FORMAT_VERSION, Target, note};
+use crate::show::regions;
+use crate::work::mapping::{Part, Source, Wanted};
+use crate::work::watch::watched;
 use aspecta::aspect::{Analysis, Count, DetSign};
 use aspecta::domain::characteristic::GivenUp;
 use aspecta::domain::{DomainError, Domains as Found, Map, MappedAspect, Surfaces};
@@ -93,7 +95,7 @@ impl Domains {
         }
         let save = self.save.as_deref().map(target).transpose()?;
         let with_surfaces = self.out.is_some() || self.save.is_some();
-        let (map, stop) = watch::watched(self.threads, |control| {
+        let (map, stop) = watched(self.threads, |control| {
             source.map(&self.making, part, with_surfaces, control, |analysis| self.ids(analysis, wanted))
         })??;
         let cancelled = stop == Some(Stop::Cancelled);

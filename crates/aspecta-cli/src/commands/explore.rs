@@ -1,12 +1,11 @@
 //! `aspecta explore`: the whole pose space of a free body, by a roadmap.
 
-use super::budget;
-use super::doubts::warn_of_architecture;
-use super::queries::Labels;
-use super::watch::watched;
+use crate::args::budget;
 use crate::failure::{Answer, Failure};
 use crate::input;
-use crate::output::{Align, FORMAT_VERSION, Table, brief, json, note};
+use crate::output::{Align, FORMAT_VERSION, Labels, Table, brief, json, note};
+use crate::show::doubts::warn_of_architecture;
+use crate::work::watch::watched;
 use aspecta::motion::explore::{End, Exploration, ExploredClass, explore};
 use aspecta::paving::Budget;
 use aspecta::robot::Robot;

@@ -1,10 +1,9 @@
 //! `aspecta export`: robots as files of other programs.
 
-use super::start;
-use super::target::Target;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
-use crate::output::note;
+use crate::output::{Target, note};
+use crate::work::start;
 use aspecta::kinematics::Singularity;
 use aspecta_view::mjcf;
 use clap::{Args, Subcommand};

@@ -1,11 +1,11 @@
 //! `aspecta fk`: the direct problem.
 
-use super::queries::queries;
-use super::solutions::{self, Unknown};
-use super::solve;
+use crate::args::format::ShownArgs;
+use crate::args::given::queries;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
-use crate::output::ShownArgs;
+use crate::show::solutions::{self, Unknown};
+use crate::work::solve;
 use clap::Args;
 use std::io::Write;
 

@@ -1,9 +1,9 @@
 //! `aspecta follow`: one solution along a stream, a line answered as soon as it is read.
 
-use super::queries::Labels;
+use crate::args::format::FormatArgs;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns, Row, Rows};
-use crate::output::{FORMAT_VERSION, Format, FormatArgs, exact, json_line};
+use crate::output::{FORMAT_VERSION, Format, Labels, exact, json_line};
 use aspecta::kinematics::WorkingMode;
 use aspecta::motion::follow::{Follower, InverseFollower, JointStep, Refusal, Step};
 use aspecta::robot::Robot;

@@ -1,11 +1,11 @@
 //! `aspecta ik`: the inverse problem.
 
-use super::queries::queries;
-use super::solutions::{self, Found, Unknown};
-use super::solve;
+use crate::args::format::ShownArgs;
+use crate::args::given::queries;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
-use crate::output::ShownArgs;
+use crate::show::solutions::{self, Unknown};
+use crate::work::solve::{self, Found};
 use clap::Args;
 use std::io::Write;
 

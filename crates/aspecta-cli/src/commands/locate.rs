@@ -1,13 +1,15 @@
 //! `aspecta locate`: in which aspect, basic region and uniqueness domains a configuration lies.
 
-use super::mapping::{Making, Part, Source};
-use super::places;
-use super::queries::{Query, queries};
-use super::solutions::Found;
-use super::{solve, watch};
+use crate::args::format::ShownArgs;
+use crate::args::given::{Query, queries};
+use crate::args::making::Making;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
-use crate::output::{ShownArgs, note};
+use crate::output::note;
+use crate::show::places;
+use crate::work::mapping::{Part, Source};
+use crate::work::solve::{self, Found};
+use crate::work::watch::watched;
 use aspecta::aspect::Analysis;
 use aspecta::robot::Robot;
 use clap::Args;
@@ -56,7 +58,7 @@ impl Locate {
         let source = Source::new(&self.robot)?;
         let found = self.configurations(source.robot())?;
         let computed = matches!(source, Source::Robot(_));
-        let (map, _) = watch::watched(self.threads, |control| {
+        let (map, _) = watched(self.threads, |control| {
             source.map(&self.making, Part::default(), false, control, |analysis| {
                 Ok(concerned(analysis, &found))
             })

@@ -1,48 +1,27 @@
-//! The subcommands, one file each.
+//! The subcommands, one file each: what they are given (`args`), what several of them do (`work`) and how they show it (`show`)
+//! is next door.
 
 mod analyze;
 mod assembly;
-mod away;
-mod budget;
 mod check;
 mod check_path;
-mod checked_path;
 mod completions;
 mod cusps;
 mod domains;
-mod doubts;
-mod drawing;
 mod explore;
 mod export;
-mod fix;
 mod fk;
 mod follow;
 mod ik;
-mod joined;
 mod locate;
-mod mapping;
 mod modes;
-mod numbered;
-mod path_verdict;
-mod places;
 mod plan;
-mod planning;
-mod queries;
-mod regions;
 mod robots;
-mod route;
 mod schema;
-mod solutions;
-mod solve;
-mod start;
 mod state;
-mod summary;
-mod target;
 mod time;
-mod timing;
 mod traverse;
 mod verify;
-mod watch;
 
 use crate::failure::{Answer, Failure};
 use clap::Subcommand;

@@ -1,10 +1,10 @@
 //! `aspecta modes`: which aspects a robot can go between by changing the postures of its legs.
 
-use super::planning::Analysing;
-use super::queries::Labels;
+use crate::args::planning::Analysing;
 use crate::failure::{Answer, Failure};
 use crate::input;
-use crate::output::{Align, FORMAT_VERSION, Table, brief, json};
+use crate::output::{Align, FORMAT_VERSION, Labels, Table, brief, json};
+use crate::show::groups::AS_FAR;
 use aspecta::aspect::Count;
 use aspecta::motion::modes::ModeGraph;
 use aspecta::robot::Robot;
@@ -42,9 +42,6 @@ Example: aspecta modes five-bar
 A crossing is proved by intervals: det A keeps its sign while the leg goes through its serial singularity. Aspects of different signs of
 det A are never joined, which is proved too; that there are no other crossings is not.
 Exit status: 0 done; 2 bad input.";
-
-/// What is to be said of a group whose aspects are not all proved to be one.
-pub const AS_FAR: &str = "crossings certified, but not that each aspect is one in boxes as fine as these";
 
 #[derive(Serialize)]
 struct Document<'a> {

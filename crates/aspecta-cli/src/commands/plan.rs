@@ -1,8 +1,10 @@
 //! `aspecta plan`: from one pose to another without a singularity, or the proof that there is no such way.
 
-use super::planning::{self, Planning, plan_over_roadmap};
+use crate::args::planning::Planning;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
+use crate::show::motion;
+use crate::work::planning::plan_over_roadmap;
 use aspecta::kinematics::WorkingMode;
 use aspecta::motion::modes::{Configuration, ModeGraph, NoRoute, Route};
 use aspecta::motion::plan::{PlanOptions, Planner};
@@ -62,7 +64,7 @@ impl Plan {
         }
         let ends = [Configuration { pose: &from, mode }, Configuration { pose: &to, mode: to_mode }];
         if let Some(refused) = self.planning.refused(&robot, ends, through, &options)? {
-            return planning::print(out, &robot, &refused, &self.planning);
+            return motion::print(out, &robot, &refused, &self.planning);
         }
         let modes: &[WorkingMode] = if through { &[] } else { &[mode] };
         let planned = self.planning.paved(&robot)?.with(&robot, modes, |analysis, _| {
@@ -76,7 +78,7 @@ impl Plan {
             };
             Ok(self.planning.moving.film(&robot, Some(analysis), result))
         })?;
-        planning::print(out, &robot, &planned, &self.planning)
+        motion::print(out, &robot, &planned, &self.planning)
     }
 
     /// Of a free body.
@@ -99,6 +101,6 @@ impl Plan {
             let result = plan_over_roadmap(robot, mode, ends, options, (effort, control))?;
             Ok(self.planning.moving.film(robot, None, result))
         })?;
-        planning::print(out, robot, &planned, &self.planning)
+        motion::print(out, robot, &planned, &self.planning)
     }
 }

@@ -1,11 +1,12 @@
 //! `aspecta state`: where a configuration stands among working modes and singularities.
 
-use super::queries::{self, Labels, Query, det_a_unit, queries};
-use super::solutions::signs;
-use super::solve;
+use crate::args::format::ShownArgs;
+use crate::args::given::{Query, queries};
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
-use crate::output::{Align, Format, ShownArgs, Table, exact, note, number};
+use crate::output::{Align, Format, Labels, Table, det_a_unit, exact, json_of_each, note, number};
+use crate::show::solutions::signs;
+use crate::work::solve;
 use aspecta::kinematics::{self, WorkingMode};
 use aspecta::robot::Robot;
 use clap::Args;
@@ -115,7 +116,7 @@ struct States<'a> {
 
 fn print_json(out: &mut dyn Write, robot: &Robot, found: &[Found]) -> Result<(), Failure> {
     let answers = found.iter().map(|f| (f.query.line, States { states: &f.states }));
-    queries::print_json(out, robot, answers.collect())
+    json_of_each(out, robot, answers.collect())
 }
 
 fn print_csv(out: &mut dyn Write, robot: &Robot, found: &[Found]) -> Result<(), Failure> {

@@ -1,11 +1,11 @@
 //! `aspecta time`: a path as a motion under joint speed and acceleration limits.
 
-use super::checked_path::PathArgs;
-use super::path_verdict::describe;
-use super::queries::Labels;
-use super::timing;
+use crate::args::format::FormatArgs;
+use crate::args::path::PathArgs;
 use crate::failure::{Answer, Failure};
-use crate::output::{FORMAT_VERSION, Format, FormatArgs, json, note, number};
+use crate::output::{FORMAT_VERSION, Format, Labels, json, note, number};
+use crate::show::verdict::describe;
+use crate::work::timing;
 use aspecta::motion::time::{Binding, JointLimits, Limited, Row, Trajectory, trajectory};
 use aspecta::motion::{Joined, Obstacle, PathCheck};
 use aspecta::robot::Robot;

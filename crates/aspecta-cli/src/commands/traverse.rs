@@ -1,12 +1,11 @@
 //! `aspecta traverse`: which aspects hold a whole set of poses.
 
-use super::mapping::Source;
-use super::modes::AS_FAR;
-use super::planning::Analysing;
-use super::queries::Labels;
+use crate::args::planning::Analysing;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
-use crate::output::{Align, FORMAT_VERSION, Table, json};
+use crate::output::{Align, FORMAT_VERSION, Labels, Table, json};
+use crate::show::groups::AS_FAR;
+use crate::work::mapping::Source;
 use aspecta::domain::Map;
 use aspecta::kinematics::modal::Constraint;
 use aspecta::motion::modes::ModeGraph;

@@ -1,9 +1,9 @@
 //! `aspecta verify`: whether a certificate proves what it claims.
 
-use super::watch;
 use crate::failure::{Answer, Failure};
 use crate::input;
 use crate::output::{self, Align, Table, note};
+use crate::work::watch::watched;
 use aspecta::certificate::{Certificate, CertificateError, Claim};
 use aspecta::robot::Robot;
 use aspecta::verify::{Checked, ENOUGH, Verdict, verify};
@@ -42,7 +42,7 @@ impl Verify {
                 return Ok(Answer::No);
             }
         }
-        let verdict = watch::watched(self.threads, |control| verify(&certificate, control))?;
+        let verdict = watched(self.threads, |control| verify(&certificate, control))?;
         if self.json {
             output::json(out, &verdict)?;
         } else {

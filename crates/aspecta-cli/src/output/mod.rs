@@ -1,12 +1,19 @@
 //! What people, scripts and spreadsheets read.
 
+mod answers;
+mod labels;
+mod paragraph;
 mod table;
+mod target;
 mod zeros;
 
+pub use answers::json_of_each;
+pub use labels::{Labels, det_a_unit};
+pub use paragraph::paragraph;
 pub use table::{Align, Table};
+pub use target::Target;
 
 use crate::failure::Failure;
-use clap::Args;
 use serde::Serialize;
 use serde_json::ser::{CompactFormatter, Formatter, PrettyFormatter, Serializer};
 use std::io::{self, Write};
@@ -15,34 +22,6 @@ use zeros::UnsignedZeros;
 /// Version of the JSON of `ik`, `fk`, `state`, `check-path` and `time`; raised when a field changes its meaning
 /// or goes away.
 pub const FORMAT_VERSION: u32 = 1;
-
-/// The `--json` and `--csv` switches.
-#[derive(Args, Clone, Copy)]
-pub struct FormatArgs {
-    /// Print JSON, and nothing else, on stdout (angles in radians)
-    #[arg(long, conflicts_with = "csv")]
-    json: bool,
-    /// Print CSV with a header (angles in radians)
-    #[arg(long)]
-    csv: bool,
-}
-
-/// How what commands find for the vectors they are asked about is shown.
-#[derive(Args, Clone, Copy)]
-pub struct ShownArgs {
-    /// Angles of the input and of the table are in degrees
-    #[arg(long)]
-    pub deg: bool,
-    #[command(flatten)]
-    format: FormatArgs,
-}
-
-impl ShownArgs {
-    /// The format asked for.
-    pub fn format(self) -> Format {
-        self.format.format()
-    }
-}
 
 /// How results are printed.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -53,17 +32,6 @@ pub enum Format {
     Json,
     /// CSV with a header.
     Csv,
-}
-
-impl FormatArgs {
-    /// The format asked for.
-    pub fn format(self) -> Format {
-        match self {
-            Self { json: true, .. } => Format::Json,
-            Self { csv: true, .. } => Format::Csv,
-            _ => Format::Table,
-        }
-    }
 }
 
 /// Writes `value` as one JSON document.

@@ -1,8 +1,7 @@
 //! The tables of `aspecta domains`.
 
-use super::queries::Labels;
 use crate::failure::Failure;
-use crate::output::{Align, Table, brief};
+use crate::output::{Align, Labels, Table, brief};
 use aspecta::domain::{Domains, Map};
 use aspecta::robot::Window;
 use aspecta_view::words::count;

@@ -1,7 +1,7 @@
 //! Where the bounds on the number of aspects are apart, and why, in 100 columns.
 
 use crate::failure::Failure;
-use crate::output::{Align, Table, brief, note};
+use crate::output::{Align, Table, brief, note, paragraph};
 use aspecta::aspect::{Analysis, Doubt, DoubtKind};
 use aspecta::kinematics::seems_architecturally_singular;
 use aspecta::robot::Robot;
@@ -37,7 +37,7 @@ pub fn print(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
     }
     for reason in reasons(analysis) {
         writeln!(out)?;
-        super::summary::paragraph(out, &reason)?;
+        paragraph(out, &reason)?;
     }
     Ok(())
 }

@@ -1,8 +1,9 @@
 //! How the direct solutions of a free body are shown, by what a roadmap joins.
 
 use super::numbered::{self, IN_ONE, Numbered, list};
+use crate::args::format::ShownArgs;
 use crate::failure::{Answer, Failure};
-use crate::output::{FORMAT_VERSION, Format, ShownArgs, json};
+use crate::output::{FORMAT_VERSION, Format, json};
 use aspecta::motion::explore::{JoinedSolutions, SharedClass};
 use aspecta::robot::Robot;
 use aspecta_view::words::count;

@@ -1,9 +1,10 @@
 //! Prints the solutions of `ik` and `fk`.
 
-use super::queries::{self, Labels, Query, det_a_unit};
+use crate::args::given::Query;
 use crate::failure::Failure;
 use crate::input::Columns;
-use crate::output::{Align, Format, Table, exact, number};
+use crate::output::{Align, Format, Labels, Table, det_a_unit, exact, json_of_each, number};
+use crate::work::solve::Found;
 use aspecta::kinematics::{Solution, WorkingMode};
 use aspecta::robot::Robot;
 use aspecta_view::words::count;
@@ -17,16 +18,6 @@ pub enum Unknown {
     Joints,
     /// The pose: `fk`.
     Pose,
-}
-
-/// A vector asked about and its solutions.
-pub struct Found {
-    /// The question.
-    pub query: Query,
-    /// The answers.
-    pub solutions: Vec<Solution>,
-    /// Of a direct problem: whether these are proved to be all.
-    pub complete: Option<bool>,
 }
 
 /// Prints all answers.
@@ -63,7 +54,7 @@ fn print_json(out: &mut dyn Write, robot: &Robot, unknown: Unknown, found: &[Fou
         let (pose, q) = if unknown == Unknown::Joints { (given, None) } else { (None, given) };
         (f.query.line, Answer { pose, q, complete: f.complete, solutions: &f.solutions })
     });
-    queries::print_json(out, robot, answers.collect())
+    json_of_each(out, robot, answers.collect())
 }
 
 fn print_csv(out: &mut dyn Write, robot: &Robot, found: &[Found]) -> Result<(), Failure> {

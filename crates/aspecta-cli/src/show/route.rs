@@ -1,9 +1,8 @@
 //! A planned motion, as it is shown.
 
-use super::path_verdict::bounds;
-use super::queries::{Labels, det_a_unit};
+use super::verdict::bounds;
 use crate::failure::Failure;
-use crate::output::{Align, Table, brief, exact};
+use crate::output::{Align, Labels, Table, brief, det_a_unit, exact};
 use aspecta::kinematics::WorkingMode;
 use aspecta::motion::modes::Route;
 use aspecta::motion::plan::Plan;

@@ -1,11 +1,20 @@
 //! The inverse and direct problems as commands pose them: where there is no solution, they say why.
 
-use super::queries::{Query, out_of_reach};
-use super::solutions::Found;
+use crate::args::given::Query;
 use crate::failure::Failure;
-use crate::output::note;
+use crate::output::{note, number};
 use aspecta::kinematics::{DirectSolutions, Solution, WorkingMode};
 use aspecta::robot::Robot;
+
+/// A vector asked about and its solutions.
+pub struct Found {
+    /// The question.
+    pub query: Query,
+    /// The answers.
+    pub solutions: Vec<Solution>,
+    /// Of a direct problem: whether these are proved to be all.
+    pub complete: Option<bool>,
+}
 
 /// All inverse solutions at a pose, given alone or in a line of a file: one bad row does not cost the others.
 pub fn inverse(robot: &Robot, pose: &[f64], line: Option<u64>) -> Result<Vec<Solution>, Failure> {
@@ -38,4 +47,13 @@ pub fn direct(robot: &Robot, query: Query, mode: Option<WorkingMode>) -> Result<
         note(&format!("{place}no direct solution{which}{proof}"));
     }
     Ok(Found { query, solutions, complete: Some(complete) })
+}
+
+/// Which legs do not reach `pose`, in a sentence.
+fn out_of_reach(robot: &Robot, pose: &[f64]) -> Result<String, Failure> {
+    let legs = robot.out_of_reach(pose)?.into_iter().map(|leg| {
+        let unit = if leg.angle { "rad" } else { &robot.length_unit };
+        format!("leg {} by {} {unit}", leg.leg, number(leg.gap))
+    });
+    Ok(format!("out of reach: {}", legs.collect::<Vec<_>>().join(", ")))
 }

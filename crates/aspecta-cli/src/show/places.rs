@@ -1,10 +1,9 @@
 //! Prints where configurations lie.
 
-use super::queries::{self, Labels};
-use super::solutions::Found;
 use crate::failure::Failure;
 use crate::input::Columns;
-use crate::output::{Align, Format, Table, exact};
+use crate::output::{Align, Format, Labels, Table, exact, json_of_each};
+use crate::work::solve::Found;
 use aspecta::aspect::DetSign;
 use aspecta::domain::{Map, Nowhere};
 use aspecta::kinematics::{Solution, WorkingMode};
@@ -104,7 +103,7 @@ fn print_json(
 ) -> Result<(), Failure> {
     let answers = found.iter().zip(places);
     let answers = answers.map(|(f, places)| (f.query.line, Answer { complete: f.complete, places }));
-    queries::print_json(out, &map.robot, answers.collect())
+    json_of_each(out, &map.robot, answers.collect())
 }
 
 fn print_csv(

@@ -1,10 +1,9 @@
 //! Numbered direct solutions of a joint vector, each with what it belongs to.
 
-use super::queries::{Labels, det_a_unit};
 use super::solutions::{SERIAL, mode};
 use crate::failure::Failure;
 use crate::input::Columns;
-use crate::output::{Align, Table, exact, number};
+use crate::output::{Align, Labels, Table, det_a_unit, exact, number};
 use aspecta::kinematics::Solution;
 use aspecta::robot::Robot;
 use aspecta_view::words::count;

@@ -1,9 +1,8 @@
 //! The result of an analysis for people, in 100 columns.
 
 use super::doubts;
-use super::queries::Labels;
 use crate::failure::Failure;
-use crate::output::{Align, Table, brief};
+use crate::output::{Align, Labels, Table, brief, paragraph};
 use aspecta::aspect::{
     Analysis, Aspect, AspectClass, Count, DetSign, EarlierAspects, Held, Measure, Reachable,
 };
@@ -14,8 +13,6 @@ use aspecta_view::EARLIER_NEED;
 use aspecta_view::words::{between, count};
 use std::io::Write;
 
-/// Columns of the terminal that the summary is made for.
-const WIDTH: usize = 100;
 /// Aspects listed; the rest is in the JSON.
 const LISTED: usize = 40;
 
@@ -45,11 +42,6 @@ pub fn print(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
     }
     writeln!(out)?;
     paragraph(out, &run(analysis))
-}
-
-pub(super) fn paragraph(out: &mut dyn Write, text: &str) -> Result<(), Failure> {
-    let options = textwrap::Options::new(WIDTH).subsequent_indent("  ");
-    Ok(writeln!(out, "{}", textwrap::fill(text, options))?)
 }
 
 /// What was held, if anything.

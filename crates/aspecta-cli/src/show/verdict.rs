@@ -1,9 +1,8 @@
 //! What people read of a checked path.
 
-use super::checked_path::PathArgs;
-use super::queries::{Labels, det_a_unit};
+use crate::args::path::PathArgs;
 use crate::failure::Failure;
-use crate::output::{number, unsigned};
+use crate::output::{Labels, det_a_unit, number, unsigned};
 use aspecta::motion::{Joined, Least, Obstacle, PathCheck};
 use aspecta::robot::Robot;
 use aspecta_view::failure;

@@ -1,30 +1,17 @@
 //! Where the map of a robot's aspects comes from: a file, or an analysis.
 
-use super::budget;
+use crate::args::budget;
+use crate::args::making::Making;
 use crate::failure::Failure;
 use crate::input;
 use aspecta::aspect::{Analysis, DetSign, Options, analyze};
 use aspecta::domain::boundary::Boundary;
 use aspecta::domain::characteristic::Characteristic;
-use aspecta::domain::{DomainError, DomainOptions, Domains, Map, MappedAspect, Surfaces, domains, slice};
+use aspecta::domain::{DomainOptions, Domains, Map, MappedAspect, Surfaces, domains, slice};
 use aspecta::kinematics::WorkingMode;
-use aspecta::paving::{Budget, Control, Stop};
+use aspecta::paving::{Control, Stop};
 use aspecta::robot::{FileError, Robot};
-use clap::Args;
 use std::sync::atomic::Ordering;
-
-/// How a map is computed.
-#[derive(Args)]
-pub struct Making {
-    /// How fine: cells are 1/N of the workspace's width in each coordinate [default: 500 for 1 or 2 coordinates, 100 for 3; for robots
-    /// with 6 500, 100 and 30 for 1, 2 and 3 that are free]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(2..=2000))]
-    cells: Option<u16>,
-    /// When to stop telling the aspects apart, as for `analyze` [default: depth=16, 11 and 7 for
-    /// 1, 2 and 3 free coordinates]
-    #[arg(long, value_parser = budget::parse, allow_hyphen_values = true)]
-    budget: Option<Budget>,
-}
 
 /// What a command is told by its first argument.
 pub enum Source {
@@ -184,10 +171,4 @@ fn surfaces(analysis: &Analysis, domains: &Domains, cells: usize) -> Result<Surf
     let characteristic =
         Characteristic::new(analysis, &boundary).map_err(|e| Failure::Input(e.to_string()))?;
     Ok(Surfaces::new(&boundary, &characteristic))
-}
-
-impl From<DomainError> for Failure {
-    fn from(error: DomainError) -> Self {
-        Self::Input(error.to_string())
-    }
 }

@@ -1,9 +1,8 @@
 //! Motions under joint limits: what `time` and the commands that plan share.
 
-use super::target::Target;
 use crate::failure::Failure;
 use crate::input::Columns;
-use crate::output::{exact, number};
+use crate::output::{Target, exact, number};
 use aspecta::motion::time::{JointLimits, Trajectory};
 use aspecta::robot::Robot;
 use aspecta_view::words::count;

@@ -1,0 +1,13 @@
+//! What people, scripts and spreadsheets read of results: summaries, tables and JSON of what several commands find.
+
+pub mod doubts;
+pub mod groups;
+pub mod joined;
+pub mod motion;
+pub mod numbered;
+pub mod places;
+pub mod regions;
+mod route;
+pub mod solutions;
+pub mod summary;
+pub mod verdict;

@@ -1,0 +1,104 @@
+//! Planned motions, or why there is none.
+
+use super::route;
+use crate::args::planning::Planning;
+use crate::failure::{Answer, Failure};
+use crate::output::{FORMAT_VERSION, Format, json, note};
+use crate::work::planning::Planned;
+use aspecta::motion::PathCheck;
+use aspecta::motion::crossing::Crossing;
+use aspecta::motion::modes::{NoRoute, Route};
+use aspecta::motion::plan::Refusal;
+use aspecta::robot::Robot;
+use aspecta_view::file;
+use serde::Serialize;
+use std::io::Write;
+
+#[derive(Serialize)]
+struct Document<'a> {
+    format_version: u32,
+    robot: &'a str,
+    #[serde(flatten)]
+    route: Option<&'a Route>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    checks: Vec<PathCheck>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    refusal: Option<Refused>,
+}
+
+#[derive(Serialize)]
+struct Refused {
+    reason: String,
+    /// Whether it is proved that there is no such motion.
+    proved: bool,
+}
+
+/// Prints a route, checked once more, or why there is none.
+///
+/// # Errors
+/// [`Failure::Input`] if what was asked for is no question about this robot.
+pub fn print(
+    out: &mut dyn Write,
+    robot: &Robot,
+    planned: &Planned,
+    Planning { moving, shown, .. }: &Planning,
+) -> Result<Answer, Failure> {
+    let (format, name) = (shown.format(), &robot.name);
+    let mut document = Document {
+        format_version: FORMAT_VERSION,
+        robot: name,
+        route: None,
+        checks: Vec::new(),
+        refusal: None,
+    };
+    match &planned.result {
+        Err(refusal) if refusal.is_bad_input() => Err(Failure::Input(refusal.to_string())),
+        Err(refusal) => {
+            let told = format!("{name}: {refusal}{}", advice(refusal));
+            match format {
+                Format::Json => {
+                    let (reason, proved) = (refusal.to_string(), refusal.is_proof());
+                    json(out, &Document { refusal: Some(Refused { reason, proved }), ..document })?;
+                }
+                Format::Csv => note(&told),
+                Format::Table => writeln!(out, "{told}")?,
+            }
+            Ok(Answer::No)
+        }
+        Ok(route) => {
+            let checks = route::checks(robot, route)?;
+            let crossed = |c: &Crossing| c.is_proved(robot, route.stretches[0].margins);
+            let is_proved = checks.iter().all(PathCheck::is_sound) && route.crossings.iter().all(crossed);
+            let mut written = moving.write(robot, route, shown.deg)?.into_iter().collect::<Vec<_>>();
+            if let (Some(directory), Some(page)) = (&moving.out, &planned.page) {
+                let path =
+                    file::put(directory, "motion.html", page).map_err(Failure::in_directory(directory))?;
+                written.push(format!("motion: {}", path.display()));
+            }
+            match format {
+                Format::Json => {
+                    (document.route, document.checks) = (Some(route), checks);
+                    json(out, &document)?;
+                }
+                Format::Csv => route::print_csv(out, robot, route)?,
+                Format::Table => route::print_table(out, robot, route, &checks, is_proved, shown.deg)?,
+            }
+            for line in written {
+                if format == Format::Table { writeln!(out, "{line}")? } else { note(&line) }
+            }
+            Ok(Answer::from(is_proved))
+        }
+    }
+}
+
+/// Which option may help.
+fn advice(refusal: &NoRoute) -> &'static str {
+    match refusal {
+        NoRoute::SerialMargin => " (--avoid M,0)",
+        NoRoute::Plan(Refusal::NotJoined { .. }) => " (--samples, --budget)",
+        NoRoute::Unknown(_) | NoRoute::NotFound { .. } | NoRoute::Plan(Refusal::NotFound { .. }) => {
+            " (--budget)"
+        }
+        _ => "",
+    }
+}

@@ -1,0 +1,167 @@
+//! What the commands that plan motions share: what they plan over, and what is written of a plan.
+
+use super::timing;
+use super::watch::watched;
+use crate::args::budget;
+use crate::args::planning::{Analysing, Moving, Planning};
+use crate::failure::Failure;
+use crate::output::{Labels, brief, note};
+use aspecta::aspect::{Analysis, Options, analyze};
+use aspecta::kinematics::WorkingMode;
+use aspecta::motion::ProfilePoint;
+use aspecta::motion::explore::{self, Effort, NoWay};
+use aspecta::motion::modes::{Configuration, NoRoute, Route, check_ends};
+use aspecta::motion::plan::{PlanOptions, Planner};
+use aspecta::motion::time::{Waypoint, trajectory};
+use aspecta::paving::{Control, Stop};
+use aspecta::robot::Robot;
+use aspecta_view::Motion;
+
+impl Analysing {
+    /// The aspects of a robot, or of some of its modes (none: all), and what `work` makes of them.
+    pub fn with<T>(
+        &self,
+        robot: &Robot,
+        modes: &[WorkingMode],
+        work: impl FnOnce(&Analysis, &Control<'_>) -> Result<T, Failure>,
+    ) -> Result<T, Failure> {
+        let budget = self.budget.unwrap_or_else(|| budget::coarse(robot.dof()));
+        // In the plane all modes cost nothing to speak of, and aspects then have the numbers of `analyze`.
+        let modes = if robot.dof() == 2 { &[] } else { modes };
+        let options = Options { budget, modes: modes.to_vec(), ..Options::default() };
+        watched(self.threads, |control| {
+            let analysis = analyze(robot, &options, control)?;
+            if analysis.run.stop == Stop::Cancelled {
+                note("interrupted: what follows rests on the aspects found so far");
+            }
+            work(&analysis, control)
+        })?
+    }
+}
+
+/// Samples of a roadmap that is to join given poses, if no number is given.
+const SAMPLES: u32 = 20_000;
+
+impl Planning {
+    /// What the ends of a motion alone tell, which is told before aspects are looked for: why there is none. For robots that are no
+    /// free bodies.
+    pub fn refused(
+        &self,
+        robot: &Robot,
+        [start, goal]: [Configuration<'_>; 2],
+        through: bool,
+        options: &PlanOptions,
+    ) -> Result<Option<Planned>, Failure> {
+        self.paved(robot)?;
+        let refusal = robot.slice(&[]).ok().and_then(|window| {
+            if through {
+                return check_ends(robot, &window, [start, goal]).err();
+            }
+            let ends = [start.pose, goal.pose];
+            Planner::check_ends(robot, &window, start.mode, ends, options).err().map(NoRoute::from)
+        });
+        Ok(refusal.map(|refusal| Planned { result: Err(refusal), page: None }))
+    }
+
+    /// How a robot that is no free body is analysed.
+    pub fn paved(&self, robot: &Robot) -> Result<&Analysing, Failure> {
+        match self.samples {
+            None => Ok(&self.analysing),
+            Some(samples) => Err(Failure::Input(format!(
+                "--samples {samples}: `{}` is no free body, its aspects are paved with boxes (--budget)",
+                robot.name
+            ))),
+        }
+    }
+
+    /// What `work` makes of a free body, with the effort its roadmaps may take.
+    pub fn explore<T>(
+        &self,
+        work: impl FnOnce(&Effort, &Control<'_>) -> Result<T, Failure>,
+    ) -> Result<T, Failure> {
+        let effort = budget::effort(self.analysing.budget, self.samples.unwrap_or(SAMPLES))?;
+        watched(self.analysing.threads, |control| work(&effort, control))?
+    }
+}
+
+/// The path over a roadmap of a free body, or why there is none.
+///
+/// # Errors
+/// [`Failure::Explore`].
+pub fn plan_over_roadmap(
+    robot: &Robot,
+    mode: WorkingMode,
+    ends: [&[f64]; 2],
+    options: &PlanOptions,
+    (effort, control): (&Effort, &Control<'_>),
+) -> Result<Result<Route, NoRoute>, Failure> {
+    match explore::plan(robot, mode, ends, options, effort, control) {
+        Ok(plan) => Ok(Ok(plan.into())),
+        Err(NoWay::Refused(refusal)) => Ok(Err(refusal.into())),
+        Err(NoWay::Robot(error)) => Err(error.into()),
+    }
+}
+
+/// What came of planning.
+pub struct Planned {
+    /// The route, or why there is none.
+    pub result: Result<Route, NoRoute>,
+    /// The page that plays it, if it was asked for.
+    pub page: Option<String>,
+}
+
+impl Moving {
+    /// The result with the page that plays it, if that is wanted: with the aspects that were analysed.
+    pub fn film(
+        &self,
+        robot: &Robot,
+        analysis: Option<&Analysis>,
+        result: Result<Route, NoRoute>,
+    ) -> Planned {
+        let route = result.as_ref().ok().filter(|_| self.out.is_some());
+        let page = route.map(|route| {
+            let pieces = route.pieces(robot);
+            let mut motion = Motion::new(robot);
+            if let Some(analysis) = analysis {
+                motion = motion.within(analysis);
+            }
+            for samples in pieces.iter().flat_map(|piece| piece.samples.chunk_by(|a, b| a.mode == b.mode)) {
+                motion = motion.then(samples[0].mode, &profile(samples));
+            }
+            motion.page()
+        });
+        Planned { result, page }
+    }
+
+    /// Writes what was asked for, and says so.
+    pub fn write(&self, robot: &Robot, route: &Route, degrees: bool) -> Result<Option<String>, Failure> {
+        let (Some(path), Some(speed), Some(acceleration)) =
+            (&self.trajectory, &self.speed, &self.acceleration)
+        else {
+            return Ok(None);
+        };
+        timing::check_rate(self.rate)?;
+        let limits = timing::limits(robot, speed, acceleration, degrees)?;
+        let motion = trajectory(&route.pieces(robot), &limits)?;
+        timing::check_length(&motion, self.rate)?;
+        let written = timing::write("--trajectory", path, robot, &motion, self.rate)?;
+        let (time, strays) =
+            (brief(motion.total_time()), Labels::joints(robot, degrees).sentence(motion.path_error()));
+        Ok(Some(format!("{written}\ntotal time: {time} s; joints stray from the plan by about {strays}")))
+    }
+}
+
+/// Samples as the page of a motion takes them, which computes the determinants itself.
+fn profile(samples: &[Waypoint]) -> Vec<ProfilePoint> {
+    let last = samples.len().saturating_sub(1).max(1) as f64;
+    let point = |(k, at): (usize, &Waypoint)| ProfilePoint {
+        segment: 1,
+        t: k as f64 / last,
+        pose: at.pose.clone(),
+        q: at.q.clone(),
+        mode: at.mode,
+        relative_det_a: 0.0,
+        relative_b: Vec::new(),
+    };
+    samples.iter().enumerate().map(point).collect()
+}
