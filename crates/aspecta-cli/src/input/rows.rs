@@ -1,0 +1,191 @@
+//! CSV files of vectors, line by line.
+
+use super::Columns;
+use crate::failure::Failure;
+use aspecta_view::words::count;
+use csv::{ReaderBuilder, StringRecord};
+use std::fmt::Display;
+use std::fs::File;
+use std::io::{self, BufRead, BufReader};
+
+/// A line of a CSV file.
+pub struct Row {
+    /// Its line number.
+    pub line: u64,
+    /// Its numbers, in the order of the columns asked for; angles in rad.
+    pub values: Vec<f64>,
+    /// What its `mode` column says, if the header has one.
+    pub mode: Option<String>,
+}
+
+/// The rows of a CSV file (`-` is stdin), each with the columns of one of `layouts` (the first that fits).
+///
+/// A first line without any number is a header: then columns are found by name, in any order, and others
+/// are ignored, so that what one command prints another can read. Empty lines and lines that start with
+/// `#` are skipped.
+pub fn rows(path: &str, layouts: &[Columns], degrees: bool) -> Result<Vec<Row>, Failure> {
+    Rows::open(path, layouts, degrees)?.collect()
+}
+
+/// [`rows`], one at a time as they come. An input without any is an error.
+pub struct Rows<'a> {
+    name: &'a str,
+    lines: Box<dyn Iterator<Item = io::Result<String>>>,
+    line: u64,
+    layouts: &'a [Columns],
+    shape: Option<Shape>,
+    degrees: bool,
+    ended: bool,
+    any: bool,
+}
+
+impl<'a> Rows<'a> {
+    /// Opens the file.
+    pub fn open(path: &'a str, layouts: &'a [Columns], degrees: bool) -> Result<Self, Failure> {
+        let lines: Box<dyn Iterator<Item = _>> = match path {
+            "-" => Box::new(io::stdin().lock().lines()),
+            _ => {
+                let file =
+                    File::open(path).map_err(|e| Failure::Input(format!("cannot read `{path}`: {e}")))?;
+                Box::new(BufReader::new(file).lines())
+            }
+        };
+        let name = if path == "-" { "stdin" } else { path };
+        Ok(Self { name, lines, line: 0, layouts, shape: None, degrees, ended: false, any: false })
+    }
+
+    /// A message about a line.
+    pub fn at(&self, line: u64, message: impl Display) -> Failure {
+        Failure::Input(format!("{}:{line}: {message}", self.name))
+    }
+
+    /// The row of a line, if it holds one.
+    fn read(&mut self, text: &str) -> Result<Option<Row>, String> {
+        let Some(record) = record(text).map_err(|e| e.to_string())? else { return Ok(None) };
+        // Quotes after a blank are part of a field to the reader.
+        let fields: Vec<&str> = record.iter().map(|field| field.trim().trim_matches('"').trim()).collect();
+        if let [whole] = fields[..]
+            && let Some(separator) = [';', '\t'].into_iter().find(|c| whole.contains(*c))
+        {
+            return Err(elsewise_separated(whole, separator));
+        }
+        let shape = match &self.shape {
+            Some(shape) => shape,
+            None => {
+                let header = fields.iter().all(|field| field.parse::<f64>().is_err());
+                let of = if header { Shape::of_header } else { Shape::of_row };
+                let found = self.shape.insert(of(&fields, self.layouts)?);
+                if header {
+                    return Ok(None);
+                }
+                found
+            }
+        };
+        let mode = shape.mode.and_then(|k| fields.get(k)).map(|&mode| mode.to_owned());
+        Ok(Some(Row { line: self.line, values: shape.read(&fields, self.degrees)?, mode }))
+    }
+
+    fn next_row(&mut self) -> Result<Option<Row>, Failure> {
+        while let Some(text) = self.lines.next() {
+            self.line += 1;
+            let text = text.map_err(|e| self.at(self.line, e))?;
+            if let Some(row) = self.read(&text).map_err(|e| self.at(self.line, e))? {
+                self.any = true;
+                return Ok(Some(row));
+            }
+        }
+        if self.any {
+            return Ok(None);
+        }
+        let (name, wanted) = (self.name, wanted(self.layouts));
+        Err(Failure::Input(format!("{name} holds no rows; one row of numbers is wanted a line: {wanted}")))
+    }
+}
+
+impl Iterator for Rows<'_> {
+    type Item = Result<Row, Failure>;
+    fn next(&mut self) -> Option<Self::Item> {
+        if self.ended {
+            return None;
+        }
+        let row = self.next_row().transpose();
+        self.ended = !matches!(row, Some(Ok(_)));
+        row
+    }
+}
+
+/// The record in a line, or `None` if it is empty or a comment; a spreadsheet's byte order mark is skipped.
+///
+/// Lines are read one by one, as no field goes over several: so a stream is answered as it comes, and a line's number
+/// is known though lines are skipped before it.
+fn record(line: &str) -> Result<Option<StringRecord>, csv::Error> {
+    let line = line.trim_start_matches('\u{feff}').trim();
+    if line.is_empty() || line.starts_with('#') {
+        return Ok(None);
+    }
+    let reader =
+        ReaderBuilder::new().has_headers(false).buffer_capacity(line.len()).from_reader(line.as_bytes());
+    reader.into_records().next().transpose()
+}
+
+/// Where the wanted columns stand in a file.
+struct Shape {
+    columns: Columns,
+    /// `fields[k]` is the index in the record of column k.
+    fields: Vec<usize>,
+    /// Fields a record must have; a headed file may hold more than is wanted, but no line of another length.
+    width: usize,
+    /// The column called `mode`.
+    mode: Option<usize>,
+}
+
+impl Shape {
+    fn of_header(header: &[&str], layouts: &[Columns]) -> Result<Self, String> {
+        let find = |name: &String| header.iter().position(|field| field.eq_ignore_ascii_case(name));
+        let fit = |c: &Columns| {
+            let fields = c.names.iter().map(find).collect::<Option<Vec<_>>>()?;
+            Some(Self { columns: c.clone(), fields, width: header.len(), mode: find(&"mode".to_owned()) })
+        };
+        layouts.iter().find_map(fit).ok_or_else(|| {
+            format!("the header `{}` lacks a column; {} wanted", header.join(","), wanted(layouts))
+        })
+    }
+
+    fn of_row(row: &[&str], layouts: &[Columns]) -> Result<Self, String> {
+        let fit = layouts.iter().find(|c| c.names.len() == row.len());
+        let columns = fit
+            .ok_or_else(|| format!("{}; {} wanted", count(row.len(), "field", "fields"), wanted(layouts)))?;
+        Ok(Self { columns: columns.clone(), fields: (0..row.len()).collect(), width: row.len(), mode: None })
+    }
+
+    fn read(&self, record: &[&str], degrees: bool) -> Result<Vec<f64>, String> {
+        if record.len() != self.width {
+            return Err(format!(
+                "{}, but the first line has {}",
+                count(record.len(), "field", "fields"),
+                self.width
+            ));
+        }
+        let number = |(&field, name): (&usize, &String)| match record[field].parse::<f64>() {
+            Ok(x) if x.is_finite() => Ok(x),
+            Ok(x) => Err(format!("column {}, {name}: {x} is not a finite number", field + 1)),
+            Err(_) => Err(format!("column {}, {name}: `{}` is not a number", field + 1, record[field])),
+        };
+        let mut values =
+            self.fields.iter().zip(&self.columns.names).map(number).collect::<Result<Vec<_>, _>>()?;
+        self.columns.to_radians(&mut values, degrees);
+        Ok(values)
+    }
+}
+
+/// What is said of a line without a comma, as spreadsheets write it where numbers hold commas.
+fn elsewise_separated(line: &str, separator: char) -> String {
+    let name = if separator == ';' { "semicolons" } else { "tabs" };
+    format!(
+        "`{line}` has {name} and no commas: separate the fields by commas, and write numbers with a point, 0.5"
+    )
+}
+
+fn wanted(layouts: &[Columns]) -> String {
+    layouts.iter().map(|c| format!("`{}`", c.names.join(","))).collect::<Vec<_>>().join(" or ")
+}
