@@ -3,22 +3,32 @@
 use crate::failure::Failure;
 use crate::input::Columns;
 use aspecta::robot::Robot;
+use clap::Args;
 
-/// Reads `phi=0.5`, `phi=30deg`, `x=-4`: (index, value), lengths in the robot's unit, angles in rad. Whether the robot can have these
-/// values is for the library to say.
-///
-/// # Errors
-/// A sentence that names the text at fault and what would do.
-pub fn parse(robot: &Robot, given: &[String]) -> Result<Vec<(usize, f64)>, Failure> {
-    all(robot, &Columns::pose(robot), "coordinate", given)
+/// What is held. Each command says what for.
+#[derive(Args)]
+pub struct FixArg {
+    #[arg(long, value_name = "COORDINATE=VALUE", value_delimiter = ',')]
+    fix: Vec<String>,
 }
 
-/// The same for joints: `q1=14.98`, `q2=30deg`.
-///
-/// # Errors
-/// As [`parse`].
-pub fn joints(robot: &Robot, given: &[String]) -> Result<Vec<(usize, f64)>, Failure> {
-    all(robot, &Columns::joints(robot), "joint", given)
+impl FixArg {
+    /// Coordinates of the pose, as in `phi=0.5`, `phi=30deg`, `x=-4`: (index, value), lengths in the robot's unit, angles in rad.
+    /// Whether the robot can have these values is for the library to say.
+    ///
+    /// # Errors
+    /// A sentence that names the text at fault and what would do.
+    pub fn coordinates(&self, robot: &Robot) -> Result<Vec<(usize, f64)>, Failure> {
+        all(robot, &Columns::pose(robot), "coordinate", &self.fix)
+    }
+
+    /// Joints, as in `q1=14.98`, `q2=30deg`: (index, value).
+    ///
+    /// # Errors
+    /// As [`Self::coordinates`].
+    pub fn joints(&self, robot: &Robot) -> Result<Vec<(usize, f64)>, Failure> {
+        all(robot, &Columns::joints(robot), "joint", &self.fix)
+    }
 }
 
 fn all(robot: &Robot, columns: &Columns, what: &str, given: &[String]) -> Result<Vec<(usize, f64)>, Failure> {

@@ -14,6 +14,43 @@ pub struct FormatArgs {
     csv: bool,
 }
 
+/// The `--json` switch.
+#[derive(Args, Clone, Copy)]
+pub struct JsonArg {
+    /// Print JSON, and nothing else, on stdout (angles in radians)
+    #[arg(long)]
+    pub json: bool,
+}
+
+impl JsonArg {
+    /// The format asked for.
+    pub fn format(self) -> Format {
+        if self.json { Format::Json } else { Format::Table }
+    }
+}
+
+/// How tables are shown, or JSON instead.
+#[derive(Args, Clone, Copy)]
+pub struct TableArgs {
+    /// Angles of the table are in degrees
+    #[arg(long)]
+    pub deg: bool,
+    #[command(flatten)]
+    json: JsonArg,
+}
+
+impl TableArgs {
+    /// Whether JSON is asked for.
+    pub fn json(self) -> bool {
+        self.json.json
+    }
+
+    /// The format asked for.
+    pub fn format(self) -> Format {
+        self.json.format()
+    }
+}
+
 /// How what commands find for the vectors they are asked about is shown.
 #[derive(Args, Clone, Copy)]
 pub struct ShownArgs {

@@ -1,6 +1,7 @@
 //! The path that `check-path` and `time` are given, checked.
 
 use super::away::Away;
+use super::robot::RobotArg;
 use crate::failure::Failure;
 use crate::input::{self, Columns};
 use aspecta::motion::{Joined, PathCheck, PathError, PathOptions, check_joints, check_poses};
@@ -10,8 +11,8 @@ use clap::{Args, ValueEnum};
 /// Which path, and what is asked of it.
 #[derive(Args)]
 pub struct PathArgs {
-    /// Name from `aspecta robots`, or path of a robot file
-    robot: String,
+    #[command(flatten)]
+    robot: RobotArg,
     /// A CSV file of poses or joint vectors, one a line; `-` reads stdin
     path: String,
     #[command(flatten)]
@@ -51,7 +52,7 @@ enum How {
 impl PathArgs {
     /// Reads the path and checks it: the robot, how many lines there are, and what was found.
     pub fn check(&self) -> Result<(Robot, usize, PathCheck), Failure> {
-        let robot = input::robot(&self.robot)?;
+        let robot = self.robot.load()?;
         let options = PathOptions { joined: self.joined(), margins: self.away.margins()? };
         let mode = self.from.mode.as_deref().map(|m| input::mode(&robot, m)).transpose()?;
         let (pose, joints) = (Columns::pose(&robot), Columns::joints(&robot));

@@ -3,10 +3,12 @@
 use super::away::Away;
 use super::budget;
 use super::format::ShownArgs;
+use super::out::OutDir;
+use super::rate::Rate;
+use super::threads::Threads;
 use crate::failure::Failure;
 use aspecta::motion::plan::PlanOptions;
 use aspecta::paving::Budget;
-use aspecta_view::file;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -16,9 +18,8 @@ pub struct Analysing {
     /// When to stop telling the aspects apart, as for `analyze` [default: depth=11 for 2 coordinates, depth=7 for 3]
     #[arg(long, value_parser = budget::parse, allow_hyphen_values = true)]
     pub budget: Option<Budget>,
-    /// Number of threads [default: all cores]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    pub threads: Option<u16>,
+    #[command(flatten)]
+    pub threads: Threads,
 }
 
 /// What kind of path is wanted.
@@ -35,9 +36,7 @@ struct Wishes {
 impl Planning {
     /// What kind of path is wanted; that the directory of `--out` can be written to is seen to before the work begins.
     pub fn options(&self) -> Result<PlanOptions, Failure> {
-        if let Some(directory) = &self.moving.out {
-            file::writable(directory).map_err(Failure::in_directory(directory))?;
-        }
+        self.moving.out.check()?;
         self.wishes.options()
     }
 }
@@ -52,8 +51,13 @@ impl Wishes {
     }
 }
 
+const OUT: &str = "\
+    Write motion.html into this directory: the robot moving, its aspect and the determinants \
+    together";
+
 /// The motion to be written besides.
 #[derive(Args)]
+#[command(mut_arg("out", |a| a.help(OUT)))]
 pub struct Moving {
     /// Write the motion under joint limits to this CSV file: time, pose, joints, their speeds and accelerations. It needs --speed and --acceleration. The robot rests at each
     /// waypoint, but not where a leg changes its posture
@@ -65,12 +69,10 @@ pub struct Moving {
     /// The greatest acceleration of the joints: one number for all, or one a joint
     #[arg(long, value_name = "A[,A…]", requires = "trajectory", allow_hyphen_values = true)]
     pub acceleration: Option<String>,
-    /// Rows a second
-    #[arg(long, value_name = "HZ", default_value_t = 100.0)]
-    pub rate: f64,
-    /// Write motion.html into this directory: the robot moving, its aspect and the determinants together
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
+    #[command(flatten)]
+    pub rate: Rate,
+    #[command(flatten)]
+    pub out: OutDir,
 }
 
 /// What every command that plans is told.

@@ -1,6 +1,11 @@
 //! `aspecta analyze`: working modes and generalized aspects.
 
-use crate::args::{budget, fix};
+use crate::args::budget;
+use crate::args::fix::FixArg;
+use crate::args::format::JsonArg;
+use crate::args::out::OutDir;
+use crate::args::robot::RobotArg;
+use crate::args::threads::{self, Threads};
 use crate::failure::{Answer, Failure};
 use crate::input;
 use crate::output::{self, Target, note};
@@ -8,22 +13,24 @@ use crate::show::summary;
 use crate::work::watch::watched;
 use aspecta::aspect::{Analysis, Options, analyze};
 use aspecta::paving::{Budget, Stop};
-use aspecta_view::{file, write_report};
+use aspecta_view::write_report;
 use clap::Args;
 use std::io::Write;
 use std::path::PathBuf;
 
 /// Arguments of `analyze`.
 #[derive(Args)]
+#[command(mut_arg("out", |a| a.help("Write report.html and its figures into this directory")))]
+#[command(mut_arg("fix", |a| a.help(FIX)))]
+#[command(mut_arg("json", |a| a.help("Print the whole result as JSON, and nothing else, on stdout (angles in radians)")))]
+#[command(mut_arg("threads", |a| a.help(threads::OF_NO_WEIGHT)))]
 pub struct Analyze {
-    /// Name from `aspecta robots`, or path of a robot file
-    robot: String,
-    /// Print the whole result as JSON, and nothing else, on stdout (angles in radians)
-    #[arg(long)]
-    json: bool,
-    /// Write report.html and its figures into this directory
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
+    #[command(flatten)]
+    robot: RobotArg,
+    #[command(flatten)]
+    shown: JsonArg,
+    #[command(flatten)]
+    out: OutDir,
     /// Write the proof of the count into this file, for `aspecta verify`: of up to 8 working modes (`--mode`)
     #[arg(long, value_name = "FILE")]
     certificate: Option<PathBuf>,
@@ -37,26 +44,25 @@ pub struct Analyze {
     /// for 1 free coordinate, 11 for 2, 7 for 3]. Times depend on the machine, the others do not. Drawing --out comes on top
     #[arg(long, value_parser = budget::parse, allow_hyphen_values = true)]
     budget: Option<Budget>,
-    /// Hold a coordinate at a value and analyse that slice: x=-4, phi=0.5 (radians) or phi=30deg; again, or separated by
-    /// commas, for several. det A stays that of the whole robot
-    #[arg(long, value_name = "COORDINATE=VALUE", value_delimiter = ',')]
-    fix: Vec<String>,
+    #[command(flatten)]
+    fix: FixArg,
     /// Analyse this working mode only, such as +-+; again, or separated by commas, for several [default: all]. A robot with more than 8 is paved once for every
     /// 8, which share the budget
     #[arg(long, value_name = "SIGNS", value_delimiter = ',', allow_hyphen_values = true)]
     mode: Vec<String>,
-    /// Number of threads [default: all cores]; the result does not depend on it
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    threads: Option<u16>,
+    #[command(flatten)]
+    threads: Threads,
 }
+
+const FIX: &str = "\
+    Hold a coordinate at a value and analyse that slice: x=-4, phi=0.5 (radians) or phi=30deg; \
+    again, or separated by commas, for several. det A stays that of the whole robot";
 
 impl Analyze {
     pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
-        let robot = input::robot(&self.robot)?;
-        let fix = fix::parse(&robot, &self.fix)?;
-        if let Some(directory) = &self.out {
-            file::writable(directory).map_err(Failure::in_directory(directory))?;
-        }
+        let robot = self.robot.load()?;
+        let fix = self.fix.coordinates(&robot)?;
+        self.out.check()?;
         let proof = self.certificate.as_deref().map(|path| Target::new("--certificate", path)).transpose()?;
         let budget = self.budget.unwrap_or_default();
         let modes = input::modes(&robot, &self.mode)?;
@@ -75,21 +81,16 @@ impl Analyze {
     }
 
     fn print(&self, out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
-        if self.json {
+        if self.shown.json {
             output::json(out, analysis)?;
         } else {
             summary::print(out, analysis)?;
         }
-        let Some(directory) = &self.out else { return Ok(()) };
+        let Some(directory) = self.out.directory() else { return Ok(()) };
         // People see the numbers while the figures are drawn.
         out.flush()?;
         write_report(analysis, directory).map_err(Failure::in_directory(directory))?;
         let written = format!("report: {}", directory.join("report.html").display());
-        if self.json {
-            note(&written);
-        } else {
-            writeln!(out, "{written}")?;
-        }
-        Ok(())
+        self.shown.format().say(out, &written)
     }
 }

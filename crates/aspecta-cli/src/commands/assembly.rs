@@ -1,6 +1,7 @@
 //! `aspecta assembly`: the poses of a joint vector by aspects, and how to change from one to another.
 
 use crate::args::planning::Planning;
+use crate::args::robot::RobotArg;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
 use crate::output::{FORMAT_VERSION, Format, Labels, json, note, number};
@@ -23,8 +24,8 @@ use std::io::Write;
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Assembly {
-    /// Name from `aspecta robots`, or path of a robot file
-    robot: String,
+    #[command(flatten)]
+    robot: RobotArg,
     /// The joint vector, one number per leg
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
     q: String,
@@ -67,7 +68,7 @@ struct Found {
 
 impl Assembly {
     pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
-        let robot = input::robot(&self.robot)?;
+        let robot = self.robot.load()?;
         let options = self.planning.options()?;
         let q = input::list("--q", &self.q, &Columns::joints(&robot), self.planning.shown.deg)?;
         let DirectSolutions { solutions, complete } = robot.direct_certified(&q)?;

@@ -1,10 +1,11 @@
 //! `aspecta check-path`: whether a path meets a singularity, or comes too near to one.
 
 use crate::args::format::FormatArgs;
+use crate::args::out::OutDir;
 use crate::args::path::PathArgs;
 use crate::failure::{Answer, Failure};
 use crate::input::Columns;
-use crate::output::{FORMAT_VERSION, Format, exact, json, note};
+use crate::output::{FORMAT_VERSION, Format, exact, json};
 use crate::show::verdict;
 use aspecta::motion::PathCheck;
 use aspecta::robot::Robot;
@@ -17,6 +18,7 @@ use std::path::{Path, PathBuf};
 
 /// Arguments of `check-path`.
 #[derive(Args)]
+#[command(mut_arg("out", |a| a.help(OUT)))]
 #[command(after_help = "\
 A path of poses is checked in a working mode, a path of joint vectors from the pose on in which it starts. What is said holds \
 between the lines of the file too: it is proved by interval arithmetic, or said to be undecided.\n\
@@ -31,9 +33,8 @@ length) and |B_jj| as a share of the greatest, along the path or up to where it 
 pub struct CheckPath {
     #[command(flatten)]
     path: PathArgs,
-    /// Draw det A and the B_jj along the path, and the robot moving along it: figure11.svg and motion.html in this directory
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
+    #[command(flatten)]
+    out: OutDir,
     #[command(flatten)]
     format: FormatArgs,
 }
@@ -46,13 +47,17 @@ struct Document<'a> {
     check: &'a PathCheck,
 }
 
+const OUT: &str = "\
+    Draw det A and the B_jj along the path, and the robot moving along it: figure11.svg and \
+    motion.html in this directory";
+
 impl CheckPath {
     pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
         let (robot, lines, check) = self.path.check()?;
-        let draw = |directory: &PathBuf| {
+        let draw = |directory: &Path| {
             draw(directory, &robot, &check, lines).map_err(Failure::in_directory(directory))
         };
-        let drawn = self.out.as_ref().map(draw).transpose()?;
+        let drawn = self.out.directory().map(draw).transpose()?;
         match self.format.format() {
             Format::Json => {
                 json(out, &Document { format_version: FORMAT_VERSION, robot: &robot.name, check: &check })?;
@@ -62,10 +67,7 @@ impl CheckPath {
         }
         if let Some([figure, motion]) = drawn {
             let written = format!("figure: {}\nmotion: {}", figure.display(), motion.display());
-            match self.format.format() {
-                Format::Table => writeln!(out, "{written}")?,
-                Format::Json | Format::Csv => note(&written),
-            }
+            self.format.format().say(out, &written)?;
         }
         Ok(Answer::from(check.is_sound()))
     }

@@ -1,8 +1,11 @@
 //! `aspecta cusps`: where three direct solutions meet.
 
-use crate::args::fix;
+use crate::args::fix::FixArg;
+use crate::args::format::TableArgs;
+use crate::args::mode::ModeArg;
+use crate::args::robot::RobotArg;
+use crate::args::threads::{self, Threads};
 use crate::failure::{Answer, Failure};
-use crate::input;
 use crate::output::{Align, FORMAT_VERSION, Labels, Table, json, note, number};
 use crate::work::watch::watched;
 use aspecta::domain::cusps::{
@@ -18,29 +21,24 @@ use std::io::Write;
 ///
 /// A cusp lets the platform change its assembly mode without meeting a singularity, by a loop of the joints round it.
 #[derive(Args)]
+#[command(mut_arg("fix", |a| a.help(FIX).value_name("JOINT=VALUE")))]
+#[command(mut_arg("mode", |a| a.help("Only the cusps in this working mode, such as `+-+`")))]
+#[command(mut_arg("threads", |a| a.help(threads::OF_NO_WEIGHT)))]
 #[command(after_help = EXAMPLE)]
 pub struct Cusps {
-    /// Name from `aspecta robots`, or path of a robot file
-    robot: String,
-    /// The joint that is held: q1=14.98, q2=0.5 (radians) or q2=30deg. Without it, the curves of cusps of a robot with three
-    /// degrees of freedom, followed numerically
-    #[arg(long, value_name = "JOINT=VALUE", value_delimiter = ',')]
-    fix: Vec<String>,
-    /// Only the cusps in this working mode, such as `+-+`
-    #[arg(long, allow_hyphen_values = true)]
-    mode: Option<String>,
+    #[command(flatten)]
+    robot: RobotArg,
+    #[command(flatten)]
+    fix: FixArg,
+    #[command(flatten)]
+    mode: ModeArg,
     /// Greatest number of boxes to look at [default: 1000000]; what is left is undecided
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     boxes: Option<u64>,
-    /// Angles of the table are in degrees
-    #[arg(long)]
-    deg: bool,
-    /// Print JSON, and nothing else, on stdout (angles in radians)
-    #[arg(long)]
-    json: bool,
-    /// Number of threads [default: all cores]; the result does not depend on it
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    threads: Option<u16>,
+    #[command(flatten)]
+    shown: TableArgs,
+    #[command(flatten)]
+    threads: Threads,
 }
 
 const EXAMPLE: &str = "\
@@ -56,25 +54,29 @@ struct Document<'a, T> {
     found: &'a T,
 }
 
+const FIX: &str = "\
+    The joint that is held: q1=14.98, q2=0.5 (radians) or q2=30deg. Without it, the curves of cusps \
+    of a robot with three degrees of freedom, followed numerically";
+
 impl Cusps {
     pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
-        let robot = input::robot(&self.robot)?;
-        let mode = self.mode.as_deref().map(|m| input::mode(&robot, m)).transpose()?;
-        let options = Options { fix: fix::joints(&robot, &self.fix)?, mode, boxes: self.boxes };
+        let robot = self.robot.load()?;
+        let mode = self.mode.of(&robot)?;
+        let options = Options { fix: self.fix.joints(&robot)?, mode, boxes: self.boxes };
         if options.fix.is_empty() && robot.dof() == 3 {
             let found = watched(self.threads, |control| cusp_curves(&robot, mode, control))??;
-            if self.json {
+            if self.shown.json() {
                 json(out, &Document { format_version: FORMAT_VERSION, found: &found })?;
             } else {
-                print_curves(out, &robot, &found, self.deg)?;
+                print_curves(out, &robot, &found, self.shown.deg)?;
             }
             return Ok(Answer::from(!found.curves.is_empty()));
         }
         let found = watched(self.threads, |control| cusps(&robot, &options, control))??;
-        if self.json {
+        if self.shown.json() {
             json(out, &Document { format_version: FORMAT_VERSION, found: &found })?;
         } else {
-            print(out, &robot, &found, self.deg)?;
+            print(out, &robot, &found, self.shown.deg)?;
         }
         if found.undecided.iter().any(|u| u.why == Doubt::Cancelled) {
             note("cancelled: this is the result so far");

@@ -1,8 +1,12 @@
 //! `aspecta domains`: basic regions and uniqueness domains.
 
 use crate::args::drawing::Drawing;
-use crate::args::fix;
+use crate::args::fix::FixArg;
+use crate::args::format::JsonArg;
 use crate::args::making::Making;
+use crate::args::mode::ModeArg;
+use crate::args::out::OutDir;
+use crate::args::threads::{self, Threads};
 use crate::failure::{Answer, Failure};
 use crate::input;
 use crate::output::{self, FORMAT_VERSION, Target, note};
@@ -15,7 +19,7 @@ use aspecta::domain::{DomainError, Domains as Found, Map, MappedAspect, Surfaces
 use aspecta::paving::Stop;
 use aspecta::robot::Robot;
 use aspecta_view::words::count;
-use aspecta_view::{Cut, file, write_domains};
+use aspecta_view::{Cut, write_domains};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 use std::io::Write;
@@ -23,41 +27,37 @@ use std::path::{Path, PathBuf};
 
 /// Arguments of `domains`.
 #[derive(Args)]
+#[command(mut_arg("out", |a| a.help(OUT)))]
+#[command(mut_arg("fix", |a| a.help(FIX)))]
+#[command(mut_arg("json", |a| a.help("Print the whole result as JSON, and nothing else, on stdout (angles in radians)")))]
+#[command(mut_arg("mode", |a| a.help("Only aspects of this working mode, such as `+-+`").value_name("SIGNS")))]
+#[command(mut_arg("threads", |a| a.help(threads::OF_NO_WEIGHT)))]
 pub struct Domains {
     /// Name from `aspecta robots`, path of a robot file, or a file written by --save: then nothing is computed
     robot: String,
-    /// Only aspects of this working mode, such as `+-+`
-    #[arg(long, value_name = "SIGNS", allow_hyphen_values = true)]
-    mode: Option<String>,
+    #[command(flatten)]
+    mode: ModeArg,
     /// Only aspects with this sign of det A
     #[arg(long, value_name = "SIGN", allow_hyphen_values = true)]
     det: Option<Sign>,
     /// Only the aspect with this number, as `aspecta analyze` with the same budget (and --fix, and with that --mode) numbers them
     #[arg(long, value_name = "ID")]
     aspect: Option<usize>,
-    /// Hold a coordinate at a value and cut that slice: x=-4, phi=0.5 (radians) or phi=30deg; again, or separated by commas, for several.
-    /// Solutions are counted wherever they are, in the whole class of the aspect (working mode and sign of det A). With --mode only that mode is analysed.
-    /// Robots with 6 coordinates have 3 free ones at most
-    #[arg(long, value_name = "COORDINATE=VALUE", value_delimiter = ',')]
-    fix: Vec<String>,
+    #[command(flatten)]
+    fix: FixArg,
     #[command(flatten)]
     making: Making,
-    /// Print the whole result as JSON, and nothing else, on stdout (angles in radians)
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    shown: JsonArg,
     /// Write all of it into this file, for `aspecta locate` and for `aspecta domains` to print and draw again
     #[arg(long, value_name = "FILE")]
     save: Option<PathBuf>,
-    /// Write pictures into this directory: basic regions, the largest uniqueness domain, basic components and the sheets over joint
-    /// space; for robots with 3 coordinates also the boundary and the characteristic surface as meshes. On slices the first two only, of 2 or 3
-    /// free coordinates
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
+    #[command(flatten)]
+    out: OutDir,
     #[command(flatten)]
     drawing: Drawing,
-    /// Number of threads [default: all cores]; the result does not depend on it
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    threads: Option<u16>,
+    #[command(flatten)]
+    threads: Threads,
 }
 
 /// A sign of det A.
@@ -80,21 +80,30 @@ struct Output<'a> {
     domains: Vec<&'a Found>,
 }
 
+const FIX: &str = "\
+    Hold a coordinate at a value and cut that slice: x=-4, phi=0.5 (radians) or phi=30deg; again, or \
+    separated by commas, for several. Solutions are counted wherever they are, in the whole class of \
+    the aspect (working mode and sign of det A). With --mode only that mode is analysed. Robots with \
+    6 coordinates have 3 free ones at most";
+
+const OUT: &str = "\
+    Write pictures into this directory: basic regions, the largest uniqueness domain, basic \
+    components and the sheets over joint space; for robots with 3 coordinates also the boundary and \
+    the characteristic surface as meshes. On slices the first two only, of 2 or 3 free coordinates";
+
 impl Domains {
     pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
         let source = Source::new(&self.robot)?;
         let wanted = self.wanted(source.robot())?;
         let part = self.part(source.robot(), wanted)?;
-        if self.out.is_some() && part.free(source.robot()) < 2 {
+        if self.out.directory().is_some() && part.free(source.robot()) < 2 {
             return Err(Failure::Input(
                 "--out: there are pictures of two or three free coordinates: free one more, or leave it out for the tables".into(),
             ));
         }
-        if let Some(directory) = &self.out {
-            file::writable(directory).map_err(Failure::in_directory(directory))?;
-        }
+        self.out.check()?;
         let save = self.save.as_deref().map(target).transpose()?;
-        let with_surfaces = self.out.is_some() || self.save.is_some();
+        let with_surfaces = self.out.directory().is_some() || self.save.is_some();
         let (map, stop) = watched(self.threads, |control| {
             source.map(&self.making, part, with_surfaces, control, |analysis| self.ids(analysis, wanted))
         })??;
@@ -112,7 +121,7 @@ impl Domains {
             let file = map.to_bytes().map_err(|e| Failure::Input(format!("--save: {e}")))?;
             self.written(out, &target.write(file)?)?;
         }
-        if let Some(directory) = &self.out {
+        if let Some(directory) = self.out.directory() {
             self.draw(out, &map, &sheets, directory)?;
         }
         let sound = sheets.iter().all(|sheet| sheet.domains.violations.is_empty());
@@ -120,7 +129,7 @@ impl Domains {
     }
 
     fn wanted(&self, robot: &Robot) -> Result<Wanted, Failure> {
-        let mode = self.mode.as_deref().map(|mode| input::mode(robot, mode)).transpose()?;
+        let mode = self.mode.of(robot)?;
         let det_a = self.det.map(|sign| match sign {
             Sign::Plus => DetSign::Positive,
             Sign::Minus => DetSign::Negative,
@@ -130,7 +139,7 @@ impl Domains {
 
     /// The slice, if one is asked for.
     fn part(&self, robot: &Robot, wanted: Wanted) -> Result<Part, Failure> {
-        let fix = fix::parse(robot, &self.fix)?;
+        let fix = self.fix.coordinates(robot)?;
         if !fix.is_empty() && self.save.is_some() {
             return Err(Failure::Input(
                 "--save keeps maps of whole workspaces: leave out --fix, or take --json".into(),
@@ -157,7 +166,7 @@ impl Domains {
     }
 
     fn print(&self, out: &mut dyn Write, map: &Map, sheets: &[&MappedAspect]) -> Result<(), Failure> {
-        if self.json {
+        if self.shown.json {
             let domains = sheets.iter().map(|sheet| &sheet.domains).collect();
             let (robot, aspects) = (&map.robot, map.aspects);
             let fixed = map.window.held().map(|(k, x)| (robot.platform.coordinates()[k].name, x)).collect();
@@ -210,12 +219,7 @@ impl Domains {
 
     /// Says that a file is there: with --json not on stdout.
     fn written(&self, out: &mut dyn Write, path: &Path) -> Result<(), Failure> {
-        let text = format!("written: {}", path.display());
-        if self.json {
-            note(&text);
-            return Ok(());
-        }
-        Ok(writeln!(out, "{text}")?)
+        self.shown.format().say(out, &format!("written: {}", path.display()))
     }
 }
 

@@ -1,6 +1,9 @@
 //! `aspecta explore`: the whole pose space of a free body, by a roadmap.
 
 use crate::args::budget;
+use crate::args::format::TableArgs;
+use crate::args::robot::RobotArg;
+use crate::args::threads::Threads;
 use crate::failure::{Answer, Failure};
 use crate::input;
 use crate::output::{Align, FORMAT_VERSION, Labels, Table, brief, json, note};
@@ -18,8 +21,8 @@ use std::io::Write;
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Explore {
-    /// Name from `aspecta robots`, or path of a robot file
-    robot: String,
+    #[command(flatten)]
+    robot: RobotArg,
     /// Only this working mode, such as `+--+-+`; again for several
     #[arg(long, allow_hyphen_values = true)]
     mode: Vec<String>,
@@ -29,15 +32,10 @@ pub struct Explore {
     /// When to stop, whatever the samples: a time, such as 30s or 5min
     #[arg(long, value_parser = budget::parse, allow_hyphen_values = true)]
     budget: Option<Budget>,
-    /// Number of threads [default: all cores]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    threads: Option<u16>,
-    /// Angles of the table are in degrees
-    #[arg(long)]
-    deg: bool,
-    /// Print JSON, and nothing else, on stdout (angles in radians)
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    threads: Threads,
+    #[command(flatten)]
+    shown: TableArgs,
 }
 
 const EXAMPLES: &str = "\
@@ -61,7 +59,7 @@ struct Document<'a> {
 
 impl Explore {
     pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
-        let robot = input::robot(&self.robot)?;
+        let robot = self.robot.load()?;
         let modes = input::modes(&robot, &self.mode)?;
         let effort = budget::effort(self.budget, self.samples)?;
         warn_of_architecture(&robot);
@@ -69,10 +67,10 @@ impl Explore {
         if found.classes.iter().any(|class| class.end == End::Cancelled) {
             note("interrupted: this is what was seen so far");
         }
-        if self.json {
+        if self.shown.json() {
             json(out, &Document { format_version: FORMAT_VERSION, found: &found })?;
         } else {
-            print(out, &robot, &found, self.deg)?;
+            print(out, &robot, &found, self.shown.deg)?;
         }
         Ok(Answer::Yes)
     }

@@ -1,5 +1,7 @@
 //! `aspecta export`: robots as files of other programs.
 
+use crate::args::mode::ModeArg;
+use crate::args::robot::RobotArg;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
 use crate::output::{Target, note};
@@ -25,15 +27,15 @@ enum Format {
 
 /// Arguments of `export mjcf`.
 #[derive(Args)]
+#[command(mut_arg("mode", |a| a.help("The working mode in which it starts, such as `+-+` [default: that farthest from singularities]").value_name("SIGNS")))]
 struct Mjcf {
-    /// Name from `aspecta robots`, or path of a robot file
-    robot: String,
+    #[command(flatten)]
+    robot: RobotArg,
     /// The pose in which the model starts [default: one far from singularities]
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
     pose: Option<String>,
-    /// The working mode in which it starts, such as `+-+` [default: that farthest from singularities]
-    #[arg(long, value_name = "SIGNS", allow_hyphen_values = true)]
-    mode: Option<String>,
+    #[command(flatten)]
+    mode: ModeArg,
     /// Angles of --pose are in degrees
     #[arg(long, requires = "pose")]
     deg: bool,
@@ -52,8 +54,8 @@ impl Export {
 
 impl Mjcf {
     fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
-        let robot = input::robot(&self.robot)?;
-        let mode = self.mode.as_deref().map(|m| input::mode(&robot, m)).transpose()?;
+        let robot = self.robot.load()?;
+        let mode = self.mode.of(&robot)?;
         let target = self.out.as_deref().map(|path| Target::new("--out", path)).transpose()?;
         let start = match &self.pose {
             Some(list) => {

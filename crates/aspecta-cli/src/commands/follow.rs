@@ -1,6 +1,7 @@
 //! `aspecta follow`: one solution along a stream, a line answered as soon as it is read.
 
-use crate::args::format::FormatArgs;
+use crate::args::format::ShownArgs;
+use crate::args::robot::RobotArg;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns, Row, Rows};
 use crate::output::{FORMAT_VERSION, Format, Labels, exact, json_line};
@@ -14,6 +15,7 @@ use std::io::Write;
 
 /// Arguments of `follow`.
 #[derive(Args)]
+#[command(mut_arg("deg", |a| a.help("Angles of the input and of what people read are in degrees")))]
 #[command(after_help = "\
 The first line must belong to the pose: it is proved which of its solutions is meant. Every further line is \
 joined to the one before by a straight segment of joint vectors, and the pose printed is proved to be the end of the solution curve \
@@ -21,8 +23,8 @@ that starts at the last pose: no jump to another solution, no parallel singulari
 is refused, and the next is taken from where the robot was. Angles are real numbers: they go on past 180 degrees.\n\
 With --inverse the lines are poses, and the joint vector printed is the one of the mode, its angles continuous.")]
 pub struct Follow {
-    /// Name from `aspecta robots`, or path of a robot file
-    robot: String,
+    #[command(flatten)]
+    robot: RobotArg,
     #[command(flatten)]
     start: Start,
     /// The lines are poses: follow the inverse solution of --mode
@@ -31,11 +33,8 @@ pub struct Follow {
     /// A CSV file, one joint vector (or pose) a line; `-` reads stdin
     #[arg(long, value_name = "CSV", default_value = "-")]
     file: String,
-    /// Angles of the input and of what people read are in degrees
-    #[arg(long)]
-    deg: bool,
     #[command(flatten)]
-    format: FormatArgs,
+    shown: ShownArgs,
 }
 
 #[derive(Args)]
@@ -92,14 +91,18 @@ enum Any {
 
 impl Follow {
     pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
-        let robot = input::robot(&self.robot)?;
+        let robot = self.robot.load()?;
         let (pose, joints) = (Columns::pose(&robot), Columns::joints(&robot));
-        let given =
-            self.start.pose.as_deref().map(|p| input::list("--pose", p, &pose, self.deg)).transpose()?;
+        let given = self
+            .start
+            .pose
+            .as_deref()
+            .map(|p| input::list("--pose", p, &pose, self.shown.deg))
+            .transpose()?;
         let mode = self.start.mode.as_deref().map(|m| input::mode(&robot, m)).transpose()?;
         let layouts = [if self.inverse { pose } else { joints }];
-        let mut rows = Rows::open(&self.file, &layouts, self.deg)?;
-        let mut printer = Printer::new(&robot, self.inverse, self.format.format(), self.deg);
+        let mut rows = Rows::open(&self.file, &layouts, self.shown.deg)?;
+        let mut printer = Printer::new(&robot, self.inverse, self.shown.format(), self.shown.deg);
         let mut follower: Option<Any> = None;
         let (mut steps, mut refused) = (0, 0);
         while let Some(row) = rows.next() {

@@ -1,10 +1,12 @@
 //! `aspecta locate`: in which aspect, basic region and uniqueness domains a configuration lies.
 
 use crate::args::format::ShownArgs;
-use crate::args::given::{Query, queries};
+use crate::args::given::{PosesOrJoints, Query};
 use crate::args::making::Making;
+use crate::args::mode::ModeArg;
+use crate::args::threads::Threads;
 use crate::failure::{Answer, Failure};
-use crate::input::{self, Columns};
+use crate::input::Columns;
 use crate::output::note;
 use crate::show::places;
 use crate::work::mapping::{Part, Source};
@@ -18,39 +20,24 @@ use std::io::Write;
 
 /// Arguments of `locate`.
 #[derive(Args)]
+#[command(mut_arg("mode", |a| a.help("Only in this working mode, such as `+-`")))]
 pub struct Locate {
     /// A file written by `aspecta domains --save`; or the name from `aspecta robots` or the robot file of a robot, whose
     /// aspects are then found and cut into regions first
     robot: String,
     #[command(flatten)]
-    input: Input,
+    given: PosesOrJoints,
     /// The rows of --file are joint vectors, not poses
     #[arg(long)]
     joints: bool,
-    /// Only in this working mode, such as `+-`
-    #[arg(long, allow_hyphen_values = true)]
-    mode: Option<String>,
+    #[command(flatten)]
+    mode: ModeArg,
     #[command(flatten)]
     making: Making,
-    /// Number of threads [default: all cores]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    threads: Option<u16>,
+    #[command(flatten)]
+    threads: Threads,
     #[command(flatten)]
     shown: ShownArgs,
-}
-
-#[derive(Args)]
-#[group(required = true, multiple = false)]
-struct Input {
-    /// A pose: x,y | x,y,phi | x,y,z | roll,pitch,yaw. It is looked for in every working mode
-    #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
-    pose: Option<String>,
-    /// A joint vector, one number per leg. All its direct solutions are looked for
-    #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
-    q: Option<String>,
-    /// A CSV file of poses (with --joints of joint vectors), one a line; `-` reads stdin
-    #[arg(long, value_name = "CSV")]
-    file: Option<String>,
 }
 
 impl Locate {
@@ -76,15 +63,13 @@ impl Locate {
 
     /// The inverse solutions of the poses, or the direct ones of the joint vectors, in the working mode if there is one.
     fn configurations(&self, robot: &Robot) -> Result<Vec<Found>, Failure> {
-        let mode = self.mode.as_deref().map(|m| input::mode(robot, m)).transpose()?;
-        let Input { pose, q, file } = &self.input;
-        if self.joints && file.is_none() {
+        let mode = self.mode.of(robot)?;
+        if self.joints && !self.given.is_file() {
             return Err(Failure::Input("--joints is about the rows of --file: give one, or --q".into()));
         }
-        let joints = self.joints || q.is_some();
-        let (option, layout, value) =
-            if joints { ("--q", Columns::joints(robot), q) } else { ("--pose", Columns::pose(robot), pose) };
-        let asked = queries(option, value.as_deref(), file.as_deref(), &[layout], self.shown.deg)?;
+        let joints = self.joints || self.given.is_joints();
+        let layout = if joints { Columns::joints(robot) } else { Columns::pose(robot) };
+        let asked = self.given.read(&[layout], self.shown.deg)?;
         let solved = |query: Query| {
             if joints {
                 return solve::direct(robot, query, mode);

@@ -1,8 +1,10 @@
 //! `aspecta modes`: which aspects a robot can go between by changing the postures of its legs.
 
+use crate::args::format::TableArgs;
+use crate::args::out::OutDir;
 use crate::args::planning::Analysing;
+use crate::args::robot::RobotArg;
 use crate::failure::{Answer, Failure};
-use crate::input;
 use crate::output::{Align, FORMAT_VERSION, Labels, Table, brief, json};
 use crate::show::groups::AS_FAR;
 use aspecta::aspect::Count;
@@ -13,28 +15,24 @@ use aspecta_view::{file, mode_graph};
 use clap::Args;
 use serde::Serialize;
 use std::io::Write;
-use std::path::PathBuf;
 
 /// Arguments of `modes`.
 ///
 /// A leg changes its posture in its serial singularity (B_jj = 0). As long as det A ≠ 0 there, the robot stays under control, and the
 /// aspects of two working modes become one larger domain of motion.
 #[derive(Args)]
+#[command(mut_arg("out", |a| a.help("Draw the graph: modes.svg in this directory")))]
+#[command(mut_arg("deg", |a| a.help("Angles of the tables are in degrees")))]
 #[command(after_help = EXAMPLES)]
 pub struct Modes {
-    /// Name from `aspecta robots`, or path of a robot file
-    robot: String,
-    /// Draw the graph: modes.svg in this directory
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
+    #[command(flatten)]
+    robot: RobotArg,
+    #[command(flatten)]
+    out: OutDir,
     #[command(flatten)]
     analysing: Analysing,
-    /// Angles of the tables are in degrees
-    #[arg(long)]
-    deg: bool,
-    /// Print JSON, and nothing else, on stdout (angles in radians)
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    shown: TableArgs,
 }
 
 const EXAMPLES: &str = "\
@@ -53,21 +51,19 @@ struct Document<'a> {
 
 impl Modes {
     pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
-        let robot = input::robot(&self.robot)?;
-        if let Some(directory) = &self.out {
-            file::writable(directory).map_err(Failure::in_directory(directory))?;
-        }
+        let robot = self.robot.load()?;
+        self.out.check()?;
         let graph = self.analysing.with(&robot, &[], |analysis, _| Ok(ModeGraph::new(analysis)))?;
-        if self.json {
+        if self.shown.json() {
             json(out, &Document { format_version: FORMAT_VERSION, robot: &robot.name, graph: &graph })?;
         } else {
-            print(out, &robot, &graph, self.deg)?;
+            print(out, &robot, &graph, self.shown.deg)?;
         }
-        if let Some(directory) = &self.out {
+        if let Some(directory) = self.out.directory() {
             let drawn = file::put(directory, "modes.svg", mode_graph(&robot, &graph));
             let path = drawn.map_err(Failure::in_directory(directory))?;
             let written = format!("figure: {}", path.display());
-            if self.json { crate::output::note(&written) } else { writeln!(out, "{written}")? }
+            self.shown.format().say(out, &written)?;
         }
         Ok(Answer::Yes)
     }

@@ -1,6 +1,7 @@
 //! `aspecta plan`: from one pose to another without a singularity, or the proof that there is no such way.
 
 use crate::args::planning::Planning;
+use crate::args::robot::RobotArg;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
 use crate::show::motion;
@@ -17,8 +18,8 @@ use std::io::Write;
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Plan {
-    /// Name from `aspecta robots`, or path of a robot file
-    robot: String,
+    #[command(flatten)]
+    robot: RobotArg,
     /// The pose to start from: x,y | x,y,phi | x,y,z | roll,pitch,yaw | x,y,z,roll,pitch,yaw
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
     from: String,
@@ -49,7 +50,7 @@ Exit status: 0 planned; 1 no such path (it says whether that is proved); 2 bad i
 
 impl Plan {
     pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
-        let robot = input::robot(&self.robot)?;
+        let robot = self.robot.load()?;
         let options = self.planning.options()?;
         let columns = Columns::pose(&robot);
         let from = input::list("--from", &self.from, &columns, self.planning.shown.deg)?;

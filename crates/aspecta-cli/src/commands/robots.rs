@@ -1,5 +1,6 @@
 //! `aspecta robots`: the catalogue.
 
+use crate::args::format::JsonArg;
 use crate::failure::{Answer, Failure};
 use crate::input;
 use crate::output::{self, Align, FORMAT_VERSION, Table};
@@ -10,13 +11,13 @@ use std::io::Write;
 
 /// Arguments of `robots`.
 #[derive(Args)]
+#[command(mut_arg("json", |a| a.help("Print the list as JSON")))]
 #[command(args_conflicts_with_subcommands = true)]
 pub struct Robots {
     #[command(subcommand)]
     action: Option<Action>,
-    /// Print the list as JSON
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    shown: JsonArg,
 }
 
 #[derive(Subcommand)]
@@ -47,7 +48,7 @@ impl Robots {
     pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
         match &self.action {
             Some(Action::Show { name }) => out.write_all(file_of(name)?.as_bytes())?,
-            None if self.json => {
+            None if self.shown.json => {
                 output::json(out, &List { format_version: FORMAT_VERSION, robots: entries()? })?
             }
             None => print(out)?,

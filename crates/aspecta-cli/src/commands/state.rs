@@ -1,7 +1,9 @@
 //! `aspecta state`: where a configuration stands among working modes and singularities.
 
 use crate::args::format::ShownArgs;
-use crate::args::given::{Query, queries};
+use crate::args::given::{Poses, Query};
+use crate::args::mode::ModeArg;
+use crate::args::robot::RobotArg;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
 use crate::output::{Align, Format, Labels, Table, det_a_unit, exact, json_of_each, note, number};
@@ -18,30 +20,20 @@ const NOT_CLOSED: f64 = 1e-3;
 
 /// Arguments of `state`.
 #[derive(Args)]
+#[command(mut_arg("file", |a| a.help("A CSV file of poses, or of poses and joint vectors, one a line; `-` reads stdin")))]
+#[command(mut_arg("mode", |a| a.help("Only the inverse solution in this working mode, such as `+-`")))]
 pub struct State {
-    /// Name from `aspecta robots`, or path of a robot file
-    robot: String,
     #[command(flatten)]
-    input: Input,
+    robot: RobotArg,
+    #[command(flatten)]
+    poses: Poses,
     /// The joint vector, one number per leg; without it, the inverse solutions of the pose
     #[arg(long, value_name = "LIST", allow_hyphen_values = true, conflicts_with_all = ["file", "mode"])]
     q: Option<String>,
-    /// Only the inverse solution in this working mode, such as `+-`
-    #[arg(long, allow_hyphen_values = true)]
-    mode: Option<String>,
+    #[command(flatten)]
+    mode: ModeArg,
     #[command(flatten)]
     shown: ShownArgs,
-}
-
-#[derive(Args)]
-#[group(required = true, multiple = false)]
-struct Input {
-    /// The pose: x,y | x,y,phi | x,y,z | roll,pitch,yaw | x,y,z,roll,pitch,yaw
-    #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
-    pose: Option<String>,
-    /// A CSV file of poses, or of poses and joint vectors, one a line; `-` reads stdin
-    #[arg(long, value_name = "CSV")]
-    file: Option<String>,
 }
 
 /// A configuration, or pose, asked about and its states.
@@ -52,17 +44,16 @@ struct Found {
 
 impl State {
     pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
-        let robot = input::robot(&self.robot)?;
-        let mode = self.mode.as_deref().map(|m| input::mode(&robot, m)).transpose()?;
+        let robot = self.robot.load()?;
+        let mode = self.mode.of(&robot)?;
         let pose = Columns::pose(&robot);
         let joints = Columns::joints(&robot);
         let q = self.q.as_deref().map(|q| input::list("--q", q, &joints, self.shown.deg)).transpose()?;
         let layouts = [pose.clone().and(&joints), pose];
         // A list is a pose alone, a row of a file may be either.
-        let layouts = if self.input.pose.is_some() { &layouts[1..] } else { &layouts[..] };
-        let (pose, file) = (self.input.pose.as_deref(), self.input.file.as_deref());
+        let layouts = if self.poses.is_one() { &layouts[1..] } else { &layouts[..] };
         let mut found = Vec::new();
-        for query in queries("--pose", pose, file, layouts, self.shown.deg)? {
+        for query in self.poses.read(layouts, self.shown.deg)? {
             let states = states(&robot, &query, q.as_deref(), mode)?;
             found.push(Found { query, states });
         }

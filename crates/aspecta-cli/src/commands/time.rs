@@ -2,6 +2,7 @@
 
 use crate::args::format::FormatArgs;
 use crate::args::path::PathArgs;
+use crate::args::rate::Rate;
 use crate::failure::{Answer, Failure};
 use crate::output::{FORMAT_VERSION, Format, Labels, json, note, number};
 use crate::show::verdict::describe;
@@ -32,9 +33,8 @@ pub struct Time {
     /// The greatest acceleration of the joints: one number for all, or one a joint
     #[arg(long, value_name = "A[,A…]", allow_hyphen_values = true)]
     acceleration: String,
-    /// Rows a second
-    #[arg(long, value_name = "HZ", default_value_t = 100.0)]
-    rate: f64,
+    #[command(flatten)]
+    rate: Rate,
     /// Write the motion to this CSV file
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -66,7 +66,7 @@ struct Motion<'a> {
 
 impl Time {
     pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
-        timing::check_rate(self.rate)?;
+        self.rate.check()?;
         if self.path.joined() == Joined::None {
             return Err(Failure::Input(
                 "--joined none: a motion needs to know what lies between the lines".into(),
@@ -78,19 +78,16 @@ impl Time {
             return self.refuse(out, &robot, &check);
         }
         let motion = trajectory(&check.pieces(), &limits)?;
-        timing::check_length(&motion, self.rate)?;
-        let write = |path: &Path| timing::write("--out", path, &robot, &motion, self.rate);
+        timing::check_length(&motion, self.rate.rate)?;
+        let write = |path: &Path| timing::write("--out", path, &robot, &motion, self.rate.rate);
         let written = self.out.as_deref().map(write).transpose()?;
         match self.format.format() {
             Format::Json => json(out, &self.document(&robot, &check, Some((&motion, &limits))))?,
-            Format::Csv => timing::rows(out, &robot, &motion, self.rate)?,
+            Format::Csv => timing::rows(out, &robot, &motion, self.rate.rate)?,
             Format::Table => self.summary(out, &robot, &check, &motion, lines)?,
         }
         if let Some(written) = written {
-            match self.format.format() {
-                Format::Table => writeln!(out, "{written}")?,
-                Format::Json | Format::Csv => note(&written),
-            }
+            self.format.format().say(out, &written)?;
         }
         Ok(Answer::Yes)
     }
@@ -119,7 +116,7 @@ impl Time {
             acceleration: &limits.acceleration,
             bindings: motion.bindings(),
             path_error: motion.path_error(),
-            rows: motion.rows(self.rate).collect(),
+            rows: motion.rows(self.rate.rate).collect(),
         });
         Document {
             format_version: FORMAT_VERSION,

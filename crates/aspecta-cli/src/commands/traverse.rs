@@ -1,6 +1,8 @@
 //! `aspecta traverse`: which aspects hold a whole set of poses.
 
+use crate::args::format::TableArgs;
 use crate::args::planning::Analysing;
+use crate::args::robot::RobotArg;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
 use crate::output::{Align, FORMAT_VERSION, Labels, Table, json};
@@ -17,10 +19,11 @@ use std::io::Write;
 
 /// Arguments of `traverse`.
 #[derive(Args)]
+#[command(mut_arg("deg", |a| a.help("Angles of the input and of the tables are in degrees")))]
 #[command(after_help = EXAMPLES)]
 pub struct Traverse {
-    /// Name from `aspecta robots`, or path of a robot file
-    robot: String,
+    #[command(flatten)]
+    robot: RobotArg,
     #[command(flatten)]
     set: Set,
     /// With --poses: also say through which groups of aspects every pose can be reached if legs change their postures
@@ -31,12 +34,8 @@ pub struct Traverse {
     map: Option<String>,
     #[command(flatten)]
     analysing: Analysing,
-    /// Angles of the input and of the tables are in degrees
-    #[arg(long)]
-    deg: bool,
-    /// Print JSON, and nothing else, on stdout (angles in radians)
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    shown: TableArgs,
 }
 
 #[derive(Args)]
@@ -80,13 +79,13 @@ struct InDomain {
 
 impl Traverse {
     pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
-        let robot = input::robot(&self.robot)?;
+        let robot = self.robot.load()?;
         if self.through_modes && self.set.poses.is_none() {
             return Err(Failure::Input(
                 "--through-modes is about separate poses: give them with --poses".into(),
             ));
         }
-        let set = self.set.read(&robot, self.deg)?;
+        let set = self.set.read(&robot, self.shown.deg)?;
         set.check(&robot)?;
         let map = self.map.as_deref().map(|path| read_map(path, &robot)).transpose()?;
         let found = self.analysing.with(&robot, &[], |analysis, _| {
@@ -94,11 +93,11 @@ impl Traverse {
             Ok(traversability(analysis, graph.as_ref(), set)?)
         })?;
         let domains = map.as_ref().map(|map| domains_of(map, &found));
-        if self.json {
+        if self.shown.json() {
             let (format_version, robot) = (FORMAT_VERSION, robot.name.as_str());
             json(out, &Document { format_version, robot, found: &found, uniqueness: domains.as_deref() })?;
         } else {
-            print(out, &robot, &found, self.deg)?;
+            print(out, &robot, &found, self.shown.deg)?;
             if self.through_modes {
                 print_groups(out, &found)?;
             }

@@ -1,5 +1,7 @@
 //! `aspecta verify`: whether a certificate proves what it claims.
 
+use crate::args::format::JsonArg;
+use crate::args::threads::Threads;
 use crate::failure::{Answer, Failure};
 use crate::input;
 use crate::output::{self, Align, Table, note};
@@ -14,18 +16,17 @@ use std::path::{Path, PathBuf};
 
 /// Arguments of `verify`.
 #[derive(Args)]
+#[command(mut_arg("json", |a| a.help("Print the verdict as JSON, and nothing else, on stdout")))]
 pub struct Verify {
     /// The certificate
     file: PathBuf,
     /// The robot that it should be about: a name from `aspecta robots`, or the path of a robot file
     #[arg(long, value_name = "ROBOT")]
     robot: Option<String>,
-    /// Print the verdict as JSON, and nothing else, on stdout
-    #[arg(long)]
-    json: bool,
-    /// Number of threads [default: all cores]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    threads: Option<u16>,
+    #[command(flatten)]
+    shown: JsonArg,
+    #[command(flatten)]
+    threads: Threads,
 }
 
 impl Verify {
@@ -43,7 +44,7 @@ impl Verify {
             }
         }
         let verdict = watched(self.threads, |control| verify(&certificate, control))?;
-        if self.json {
+        if self.shown.json {
             output::json(out, &verdict)?;
         } else {
             print(out, &certificate, &verdict)?;

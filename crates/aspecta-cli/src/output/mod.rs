@@ -34,6 +34,18 @@ pub enum Format {
     Csv,
 }
 
+impl Format {
+    /// Says something beside the results, such as where a file is: below a table; else on stderr, for stdout holds nothing
+    /// but the results.
+    pub fn say(self, out: &mut dyn Write, text: &str) -> Result<(), Failure> {
+        match self {
+            Self::Table => writeln!(out, "{text}")?,
+            Self::Json | Self::Csv => note(text),
+        }
+        Ok(())
+    }
+}
+
 /// Writes `value` as one JSON document.
 pub fn json(out: &mut dyn Write, value: &impl Serialize) -> Result<(), Failure> {
     json_in(out, value, PrettyFormatter::new())

@@ -70,7 +70,7 @@ pub fn print(
             let crossed = |c: &Crossing| c.is_proved(robot, route.stretches[0].margins);
             let is_proved = checks.iter().all(PathCheck::is_sound) && route.crossings.iter().all(crossed);
             let mut written = moving.write(robot, route, shown.deg)?.into_iter().collect::<Vec<_>>();
-            if let (Some(directory), Some(page)) = (&moving.out, &planned.page) {
+            if let (Some(directory), Some(page)) = (moving.out.directory(), &planned.page) {
                 let path =
                     file::put(directory, "motion.html", page).map_err(Failure::in_directory(directory))?;
                 written.push(format!("motion: {}", path.display()));
@@ -84,7 +84,7 @@ pub fn print(
                 Format::Table => route::print_table(out, robot, route, &checks, is_proved, shown.deg)?,
             }
             for line in written {
-                if format == Format::Table { writeln!(out, "{line}")? } else { note(&line) }
+                format.say(out, &line)?;
             }
             Ok(Answer::from(is_proved))
         }

@@ -118,7 +118,7 @@ impl Moving {
         analysis: Option<&Analysis>,
         result: Result<Route, NoRoute>,
     ) -> Planned {
-        let route = result.as_ref().ok().filter(|_| self.out.is_some());
+        let route = result.as_ref().ok().filter(|_| self.out.directory().is_some());
         let page = route.map(|route| {
             let pieces = route.pieces(robot);
             let mut motion = Motion::new(robot);
@@ -140,11 +140,11 @@ impl Moving {
         else {
             return Ok(None);
         };
-        timing::check_rate(self.rate)?;
+        self.rate.check()?;
         let limits = timing::limits(robot, speed, acceleration, degrees)?;
         let motion = trajectory(&route.pieces(robot), &limits)?;
-        timing::check_length(&motion, self.rate)?;
-        let written = timing::write("--trajectory", path, robot, &motion, self.rate)?;
+        timing::check_length(&motion, self.rate.rate)?;
+        let written = timing::write("--trajectory", path, robot, &motion, self.rate.rate)?;
         let (time, strays) =
             (brief(motion.total_time()), Labels::joints(robot, degrees).sentence(motion.path_error()));
         Ok(Some(format!("{written}\ntotal time: {time} s; joints stray from the plan by about {strays}")))

@@ -41,13 +41,6 @@ fn limit(robot: &Robot, option: &str, text: &str, degrees: bool) -> Result<Vec<f
     Ok(numbers.into_iter().zip(&joints.angles).map(turned).collect())
 }
 
-/// A rate that makes sense, as far as it alone tells.
-pub fn check_rate(rate: f64) -> Result<(), Failure> {
-    let sound = rate > 0.0 && rate.is_finite();
-    let bad = || Failure::Input(format!("--rate: {rate} is not a positive number of rows a second"));
-    sound.then_some(()).ok_or_else(bad)
-}
-
 /// Whether a motion at this rate has a number of rows that makes sense.
 pub fn check_length(motion: &Trajectory, rate: f64) -> Result<(), Failure> {
     let seconds = motion.total_time();

@@ -1,5 +1,6 @@
 //! How long work is watched and stopped.
 
+use crate::args::threads::Threads;
 use crate::failure::Failure;
 use crate::output::note;
 use aspecta::paving::{Control, Progress};
@@ -12,7 +13,7 @@ use std::time::Duration;
 static CANCELLED: AtomicBool = AtomicBool::new(false);
 
 /// Does long work on a number of threads (all cores if none is given), shows how far it has come, and lets Ctrl-C stop it.
-pub fn watched<T>(threads: Option<u16>, work: impl FnOnce(&Control<'_>) -> T) -> Result<T, Failure> {
+pub fn watched<T>(threads: Threads, work: impl FnOnce(&Control<'_>) -> T) -> Result<T, Failure> {
     limit(threads)?;
     interrupts()?;
     let bar = progress_bar();
@@ -46,8 +47,8 @@ fn progress_bar() -> ProgressBar {
 }
 
 /// Limits the work to a number of threads.
-fn limit(threads: Option<u16>) -> Result<(), Failure> {
-    let Some(threads) = threads else { return Ok(()) };
+fn limit(threads: Threads) -> Result<(), Failure> {
+    let Some(threads) = threads.threads else { return Ok(()) };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
     pool.map_err(|e| Failure::Input(format!("--threads {threads}: {e}")))
 }
