@@ -3,15 +3,17 @@
 //! Which solution is a parallel robot in, and where can it go from there without meeting a singularity?
 //!
 //! The theory is Chablat & Wenger, *Mechanism and Machine Theory* 36(6), 2001; "the paper" throughout.
-//! Data flows one way: [`robot`] → [`kinematics`] → `paving` → `aspect` → `motion`.
+//! Data flows one way: [`robot`] → [`kinematics`] → [`paving`] → [`aspect`] → [`domain`] → [`motion`].
 //! Beside it stands [`verify`], which shares next to nothing with the rest and checks what [`certificate`]s claim.
 
 pub mod aspect;
-pub mod certificate;
 pub mod domain;
-pub mod kinematics;
 pub mod motion;
-pub mod num;
 pub mod paving;
-pub mod robot;
-pub mod verify;
+
+pub use aspecta_kinematics as kinematics;
+pub use aspecta_kinematics::Kinematics;
+pub use aspecta_robot as robot;
+pub use aspecta_robot::num;
+pub use aspecta_verify as verify;
+pub use aspecta_verify::certificate;

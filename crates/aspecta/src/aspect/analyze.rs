@@ -2,44 +2,31 @@
 
 use super::ascent::Class;
 use super::atlas::{Atlas, Leaf};
+use super::certify::certificate;
 use super::components::{Components, Piece};
 use super::count::{Counted, Group};
 use super::doubt::doubts;
 use super::earlier::{parallel_aspects, serial_aspects};
 use super::measure::{Held, Measure};
+use super::options::Options;
 use super::project::{q_bounds, w_bounds};
 use super::refusal::{AnalysisError, refuse};
 use super::result::*;
 use super::seams::centre;
 use super::search::Search;
-use crate::certificate::{Certificate, Claim, Join, Seam};
-use crate::kinematics::chart::uncharted_folds;
-use crate::kinematics::parallel_rods::parallel_rods;
-use crate::kinematics::{WorkingMode, seems_architecturally_singular};
 use crate::paving::{Budget, Control, MODES, Mark, Node, Paving, Progress, Stop};
-use crate::robot::{Actuator, Leg, Robot, Window};
+use aspecta_kinematics::Kinematics;
+use aspecta_kinematics::chart::uncharted_folds;
+use aspecta_kinematics::parallel_rods::parallel_rods;
+use aspecta_kinematics::{WorkingMode, seems_architecturally_singular};
+use aspecta_robot::{Actuator, Leg, Robot, Window};
+use aspecta_verify::certificate::Certificate;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::time::Instant;
 
 /// Boxes after which a search ends by itself that cannot make the bounds meet.
 const HOPELESS_BOXES: u64 = 4_000_000;
-
-/// How an analysis is done.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Options {
-    /// How far the paving goes. Where nothing says when to stop: until the bounds meet, or [`crate::paving::MAX_BOXES`] boxes; 4 million
-    /// where [`Analysis::parallel_rods`], [`Analysis::uncharted_folds`] or [`Analysis::architecturally_singular`] keep the bounds apart.
-    pub budget: Budget,
-    /// Coordinates to hold (index, value), as in [`Robot::slice`]: what is analysed are the poses that have these values.
-    pub fix: Vec<(usize, f64)>,
-    /// The working modes to analyse, in this order; empty: all of the robot. With some only, the classes, bounds and numbers are
-    /// those of these modes, and Definitions 5 and 6 are left out, as they are for more modes than one pass takes
-    /// ([`crate::paving::MODES`]).
-    pub modes: Vec<WorkingMode>,
-    /// Whether to keep the proof: [`Analysis::certificate`]. For up to [`crate::paving::MODES`] working modes.
-    pub certificate: bool,
-}
 
 /// Working modes (Def. 7) and generalized aspects (Def. 8) of a robot with up to three free coordinates.
 ///
@@ -133,7 +120,7 @@ fn analyze_here(robot: &Robot, options: &Options, control: &Control<'_>) -> Resu
         fixed: Held::all(robot, &window),
         measure: Measure::over(robot, &window),
         aspects: Count { low, high, certified: high == Some(low) },
-        legs: robot.leg_reports(),
+        legs: leg_reports(robot),
         modes: reports,
         classes,
         doubts,
@@ -263,24 +250,6 @@ fn aspect(atlas: &Atlas<'_>, class: Class, components: &Components, group: &Grou
     }
 }
 
-/// All that the bounds rest on.
-fn certificate(atlas: &Atlas<'_>, counted: &[(Class, Counted)]) -> Certificate {
-    let claims = counted.iter().map(|(_, c)| Claim { low: c.low(), high: c.high() }).collect();
-    let index = |class: &Class| class.bit.trailing_zeros() as usize;
-    let joins = counted.iter().flat_map(|(class, c)| {
-        c.joins.iter().map(|join| Join { class: index(class), sheet: join.sheet, path: join.points.clone() })
-    });
-    let seams = counted.iter().flat_map(|(class, c)| {
-        let seam = |&(sheet, node): &Leaf| Seam {
-            class: index(class),
-            sheet,
-            point: atlas.sheets[sheet].centre(node),
-        };
-        c.components.seams.iter().map(seam)
-    });
-    Certificate::new(atlas.robot, &atlas.scale, &atlas.sheets, joins.collect(), seams.collect(), claims)
-}
-
 /// Numbers the aspects of all classes from 1.
 fn number(found: Vec<Found>) -> (Vec<AspectClass>, Vec<Vec<(u32, u32)>>) {
     let mut next = 1;
@@ -323,23 +292,21 @@ fn mode_report(robot: &Robot, paving: &Paving, m: usize, mode: WorkingMode) -> M
     ModeReport { number, mode, reachable, sample }
 }
 
-impl Robot {
-    /// Theorem 1's hypothesis, leg by leg: working modes separate the inverse solutions if and only if no leg is
-    /// cuspidal (and each has at most two postures).
-    pub fn leg_reports(&self) -> Vec<LegReport> {
-        let report = |(k, leg): (usize, &Leg)| LegReport {
-            leg: k + 1,
-            actuator: leg.actuator.kind(),
-            postures: leg.actuator.postures(),
-            cuspidal: false,
-            reason: match leg.actuator {
-                Actuator::Strut => "one posture: the strut's length is positive",
-                _ => {
-                    "two postures, the roots of a quadratic in closed form: the sign of B_jj names them, and they meet \
+/// Theorem 1's hypothesis, leg by leg: working modes separate the inverse solutions if and only if no leg is
+/// cuspidal (and each has at most two postures).
+fn leg_reports(robot: &Robot) -> Vec<LegReport> {
+    let report = |(k, leg): (usize, &Leg)| LegReport {
+        leg: k + 1,
+        actuator: leg.actuator.kind(),
+        postures: leg.actuator.postures(),
+        cuspidal: false,
+        reason: match leg.actuator {
+            Actuator::Strut => "one posture: the strut's length is positive",
+            _ => {
+                "two postures, the roots of a quadratic in closed form: the sign of B_jj names them, and they meet \
                      only where B_jj = 0"
-                }
-            },
-        };
-        self.legs.iter().enumerate().map(report).collect()
-    }
+            }
+        },
+    };
+    robot.legs.iter().enumerate().map(report).collect()
 }

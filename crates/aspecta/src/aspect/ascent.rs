@@ -1,17 +1,18 @@
 //! Merging pieces by certified ascent: from a small piece, climb U = log σ det A + Σ log h_j + Σ log c_k.
 //!
 //! U → −∞ at every boundary of S_{s,σ}, so a climb never leaves its aspect; each step is a segment proved by
-//! intervals to lie in S_{s,σ} ([`crate::kinematics::path::along`]). Pieces that a climb meets are one aspect with the piece it began in.
+//! intervals to lie in S_{s,σ} ([`aspecta_kinematics::path::curve::along`]). Pieces that a climb meets are one aspect with the piece it began in.
 
 use super::components::{Components, UnionFind};
-use crate::kinematics::chart::Chart;
-use crate::kinematics::demand::{Demand, demands_of};
-use crate::kinematics::modal::Constraint;
-use crate::kinematics::path::Along;
-use crate::kinematics::{WorkingMode, for_platform};
-use crate::num::{Interval, Jet, Scalar};
 use crate::paving::{ClassSet, Paving};
-use crate::robot::Robot;
+use aspecta_kinematics::chart::Chart;
+use aspecta_kinematics::chart::Coordinates;
+use aspecta_kinematics::demand::{Demand, demands_of};
+use aspecta_kinematics::modal::Constraint;
+use aspecta_kinematics::path::curve::Along;
+use aspecta_kinematics::{WorkingMode, for_platform};
+use aspecta_robot::Robot;
+use aspecta_robot::num::{Interval, Jet, Scalar};
 use nalgebra::{DMatrix, SMatrix, SVector};
 use rayon::prelude::*;
 

@@ -1,14 +1,16 @@
 //! The charts of a robot, paved.
 
-use super::scale::Scale;
+use super::scale::scale;
 use super::seams::{base_of, middle};
 use super::summit::summitless;
-use crate::kinematics::WorkingMode;
-use crate::kinematics::chart::{Chart, charts};
-use crate::kinematics::for_platform;
-use crate::num::{Interval, Scalar};
 use crate::paving::{Budget, ClassSet, Control, Node, Paving, Progress, for_paving};
-use crate::robot::{Robot, Window};
+use aspecta_kinematics::chart::Coordinates;
+use aspecta_kinematics::chart::{Chart, charts};
+use aspecta_kinematics::for_platform;
+use aspecta_robot::WorkingMode;
+use aspecta_robot::num::{Interval, Scalar};
+use aspecta_robot::{Robot, Window};
+use aspecta_verify::certificate::Scale;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
@@ -91,7 +93,7 @@ impl<'a> Atlas<'a> {
         poses.nodes.iter_mut().for_each(|node| node.covered = replaced);
         let blank = charts.iter().map(|chart| Paving::blank(chart.clone(), chart.window(window), modes));
         let sheets = std::iter::once(poses).chain(blank).collect();
-        Self { scale: Scale::of(robot, window, modes), robot, charts, sheets }
+        Self { scale: scale(robot, window, modes), robot, charts, sheets }
     }
 
     /// Classes of which nothing is settled in a box: it is neither inside nor outside, and might hide a whole aspect.

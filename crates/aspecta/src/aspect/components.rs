@@ -3,7 +3,7 @@
 use super::atlas::Leaf;
 use super::seams;
 use crate::paving::{Mark, Node, Paving};
-use crate::robot::Robot;
+use aspecta_robot::Robot;
 
 /// Disjoint sets, by path halving and union by index.
 pub(crate) struct UnionFind(Vec<u32>);

@@ -5,11 +5,12 @@ use super::atlas::{Atlas, Leaf};
 use super::count::Counted;
 use super::result::{DetSign, Doubt, DoubtKind};
 use super::seams::poses;
-use crate::kinematics::chart::Chart;
-use crate::kinematics::for_platform;
-use crate::kinematics::limits::margin;
-use crate::kinematics::modal::ModalRows;
-use crate::num::{Interval, Scalar};
+use aspecta_kinematics::chart::Chart;
+use aspecta_kinematics::chart::Coordinates;
+use aspecta_kinematics::for_platform;
+use aspecta_kinematics::limits::margin;
+use aspecta_kinematics::modal::ModalRows;
+use aspecta_robot::num::{Interval, Scalar};
 
 /// What keeps the bounds of a class apart.
 pub(super) fn doubts(atlas: &Atlas<'_>, class: Class, counted: &Counted) -> Vec<Doubt> {

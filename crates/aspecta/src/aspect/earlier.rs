@@ -5,9 +5,10 @@
 
 use super::components::Components;
 use super::result::{EarlierAspects, EarlierDomain, Sample};
-use crate::kinematics::WorkingMode;
 use crate::paving::{ClassSet, Mark, Node, Paving};
-use crate::robot::Robot;
+use aspecta_kinematics::Kinematics;
+use aspecta_robot::Robot;
+use aspecta_robot::WorkingMode;
 use rayon::prelude::*;
 
 /// Definition 5: where det A > 0 in some working mode, and where it is < 0 in some.

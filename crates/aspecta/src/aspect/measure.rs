@@ -1,6 +1,6 @@
 //! What an analysis is over: the coordinates that are held, and the unit in which the others are measured.
 
-use crate::robot::{Robot, Window};
+use aspecta_robot::{Robot, Window};
 use serde::{Serialize, Serializer};
 use std::fmt;
 

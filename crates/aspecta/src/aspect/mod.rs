@@ -5,17 +5,19 @@
 //! | Theorem 1 | [`LegReport`] |
 //! | Def. 5, parallel aspects | [`Analysis::parallel_aspects`] |
 //! | Def. 6, serial aspects | [`Analysis::serial_aspects`] |
-//! | Def. 7, working modes | [`crate::kinematics::WorkingMode`], [`ModeReport`] |
+//! | Def. 7, working modes | [`aspecta_robot::WorkingMode`], [`ModeReport`] |
 //! | Def. 8, generalized aspects | [`Aspect`], [`AspectClass`] |
 
 mod analyze;
 mod ascent;
 mod atlas;
+mod certify;
 mod components;
 mod count;
 mod doubt;
 mod earlier;
 mod measure;
+mod options;
 mod project;
 mod refusal;
 mod result;
@@ -27,11 +29,13 @@ mod summit;
 
 pub(crate) use components::UnionFind;
 
-pub use analyze::{Options, analyze};
+pub use analyze::analyze;
+pub use aspecta_verify::certificate::Scale;
+pub use certify::certify;
 pub use measure::{Held, Measure, Unit};
+pub use options::Options;
 pub use refusal::AnalysisError;
 pub use result::{
     Analysis, Aspect, AspectClass, Cell, Count, DetSign, Doubt, DoubtKind, EarlierAspects, EarlierDomain,
     FORMAT_VERSION, LegReport, ModeReport, Place, Reachable, Run, Sample,
 };
-pub use scale::Scale;

@@ -2,14 +2,14 @@
 
 use super::atlas::Leaf;
 use super::seams::poses;
-use crate::kinematics::leg::Drive;
-use crate::kinematics::modal::closures;
-use crate::kinematics::placement::Placement;
-use crate::kinematics::{WorkingMode, for_platform};
-use crate::num::Interval;
 use crate::paving::Paving;
-use crate::robot::{Leg, Robot};
 use arrayvec::ArrayVec;
+use aspecta_kinematics::modal::closures;
+use aspecta_kinematics::placement::Placement;
+use aspecta_kinematics::{WorkingMode, for_platform};
+use aspecta_robot::legs::Drive;
+use aspecta_robot::num::Interval;
+use aspecta_robot::{Leg, Robot};
 
 /// The smallest range that holds all the intervals; on a circle of 2π, the complement of the widest gap
 /// (its upper end may lie beyond π), or (−π, π) if there is none.
@@ -170,7 +170,7 @@ fn common(limit: Interval, x: Interval, leg: &Leg) -> Interval {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::robot::Limit;
+    use aspecta_robot::Limit;
 
     #[test]
     fn unions_are_disjoint() {

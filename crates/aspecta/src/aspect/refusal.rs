@@ -1,9 +1,9 @@
 //! What is not analysed.
 
-use super::analyze::Options;
-use crate::kinematics::WorkingMode;
+use super::options::Options;
 use crate::paving::{AXES, MODES};
-use crate::robot::{Robot, SliceError};
+use aspecta_robot::WorkingMode;
+use aspecta_robot::{Robot, SliceError};
 
 /// Why a robot cannot be analysed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -2,11 +2,11 @@
 
 use super::ascent::{Class, ascend};
 use super::measure::{Held, Measure};
-use crate::certificate::Certificate;
-use crate::kinematics::parallel_rods::ParallelRods;
-use crate::kinematics::{WorkingMode, for_platform};
 use crate::paving::{BoxOf, ClassSet, MODES, Paving, Stop};
-use crate::robot::{Robot, Window};
+use aspecta_kinematics::parallel_rods::ParallelRods;
+use aspecta_kinematics::{WorkingMode, for_platform};
+use aspecta_robot::{Robot, Window};
+use aspecta_verify::certificate::Certificate;
 use serde::{Deserialize, Serialize};
 
 /// Version of the JSON layout of [`Analysis`]; raised when a field changes its meaning or goes away.
@@ -38,7 +38,7 @@ pub struct Analysis {
     pub classes: Vec<AspectClass>,
     /// What keeps the bounds apart, where they do not meet; empty if they do.
     pub doubts: Vec<Doubt>,
-    /// Whether the robot seems to be singular wherever it goes ([`crate::kinematics::seems_architecturally_singular`], numerical): then nothing is
+    /// Whether the robot seems to be singular wherever it goes ([`aspecta_kinematics::seems_architecturally_singular`], numerical): then nothing is
     /// ever decided.
     pub architecturally_singular: bool,
     /// Surfaces on which det A vanishes to higher order: a reason for doubts that no refinement removes.

@@ -5,11 +5,12 @@
 //! local maximum of σ det A, and no aspect has a summit in the box. This settles boxes round the double points of det A = 0, where
 //! ∇det A vanishes and no first-order test can succeed: robots with a symmetry have them exactly.
 
-use crate::kinematics::WorkingMode;
-use crate::kinematics::modal::ModalRows;
-use crate::num::{Interval, Jet, Scalar};
 use crate::paving::Paving;
-use crate::robot::Robot;
+use aspecta_kinematics::chart::Coordinates;
+use aspecta_kinematics::modal::ModalRows;
+use aspecta_robot::Robot;
+use aspecta_robot::WorkingMode;
+use aspecta_robot::num::{Interval, Jet, Scalar};
 use nalgebra::{DMatrix, SMatrix};
 
 type Second<const M: usize> = Jet<Jet<Interval, M>, M>;

@@ -1,34 +1,20 @@
 //! How large the constraints typically are, to make them comparable.
 
-use crate::kinematics::WorkingMode;
-use crate::kinematics::chart::Chart;
-use crate::kinematics::for_platform;
-use crate::kinematics::limits::{margin, unit};
-use crate::kinematics::modal::ModalRows;
-use crate::robot::{Robot, Window};
-use serde::{Deserialize, Serialize};
-
-/// Positive constants by which the functions that bound S_{s,σ} are divided to form P (`docs/theory.md`, 5): their mean magnitude
-/// over the window. Every proof holds for any choice; this one keeps boxes from being taken for corners.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Scale {
-    /// Of det A.
-    pub det: f64,
-    /// Of H_j, per leg: h_j is divided by its root.
-    pub reach: Vec<f64>,
-    /// Of the limits, per leg.
-    pub limits: Vec<Vec<f64>>,
-}
+use aspecta_kinematics::chart::Chart;
+use aspecta_kinematics::chart::Coordinates;
+use aspecta_kinematics::for_platform;
+use aspecta_kinematics::limits::{margin, unit};
+use aspecta_kinematics::modal::ModalRows;
+use aspecta_robot::WorkingMode;
+use aspecta_robot::{Robot, Window};
+use aspecta_verify::certificate::Scale;
 
 /// Sample poses per coordinate.
 const SAMPLES: usize = 8;
 
-impl Scale {
-    /// Mean magnitudes over a grid of poses.
-    pub fn of(robot: &Robot, window: &Window, modes: &[WorkingMode]) -> Self {
-        for_platform!(robot.platform, sample(robot, window, modes))
-    }
+/// Mean magnitudes over a grid of poses.
+pub(super) fn scale(robot: &Robot, window: &Window, modes: &[WorkingMode]) -> Scale {
+    for_platform!(robot.platform, sample(robot, window, modes))
 }
 
 /// A running mean of magnitudes.

@@ -1,12 +1,13 @@
 //! Where the boxes of one chart meet those of another.
 
 use super::atlas::Leaf;
-use crate::kinematics::chart::Chart;
-use crate::kinematics::for_platform;
-use crate::num::{Interval, Scalar};
 use crate::paving::{Mark, Node, Paving};
-use crate::robot::Robot;
 use arrayvec::ArrayVec;
+use aspecta_kinematics::chart::Coordinates;
+use aspecta_kinematics::chart::{Chart, coordinates};
+use aspecta_kinematics::for_platform;
+use aspecta_robot::Robot;
+use aspecta_robot::num::{Interval, Scalar};
 
 /// The sheet whose boxes, and those that replace some of them, hold all configurations: that of poses, or of a chart that holds all.
 pub(super) fn base_of(sheets: &[Paving]) -> usize {
@@ -133,7 +134,7 @@ fn images_in<const D: usize, const N: usize>(
     };
     let y: [Interval; N] = std::array::from_fn(|k| y[k]);
     let (placement, _) = chart.at::<Interval, D, N>(robot, &y, |k| y[k].sin_cos());
-    chain.coordinates::<D, N>(robot, &placement).map(|image| image.to_vec()).into()
+    coordinates::<D, N>(chain, robot, &placement).map(|image| image.to_vec()).into()
 }
 
 fn poses_in<const D: usize, const N: usize>(robot: &Robot, chart: &Chart, y: &[Interval]) -> Vec<Interval> {

@@ -3,9 +3,9 @@
 use super::ascent::Class;
 use super::atlas::{Atlas, Leaf, Limits};
 use super::count::{Counted, count};
-use crate::kinematics::WorkingMode;
 use crate::paving::{Budget, Control, MAX_BOXES, MAX_DEPTH, Progress, Stop};
-use crate::robot::{Robot, Window};
+use aspecta_robot::WorkingMode;
+use aspecta_robot::{Robot, Window};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -29,12 +29,12 @@ mod leg;
 mod view;
 
 use super::saddle::no_local_maximum;
-use super::scale::Scale;
-use crate::kinematics::WorkingMode;
-use crate::num::{Interval, LANES, Mask, Pack};
 use crate::paving::{ClassSet, Paving};
-use crate::robot::Robot;
 use arrayvec::ArrayVec;
+use aspecta_robot::Robot;
+use aspecta_robot::WorkingMode;
+use aspecta_robot::num::{Interval, LANES, Mask, Pack};
+use aspecta_verify::certificate::Scale;
 use climb::can_climb;
 use frame::Frame;
 use leg::LegPart;

@@ -9,8 +9,8 @@ use super::sheet::Sheet;
 use super::slice::Beyond;
 use super::uniqueness::maximal_sets;
 use crate::aspect::Analysis;
-use crate::num::Random;
 use crate::paving::Control;
+use aspecta_robot::num::Random;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 

@@ -14,8 +14,8 @@ pub(super) use lattice::orders;
 
 use super::field::Field;
 use crate::aspect::{Analysis, Aspect, DetSign, Place};
-use crate::kinematics::modal::Constraint;
-use crate::kinematics::{WorkingMode, for_platform};
+use aspecta_kinematics::modal::Constraint;
+use aspecta_kinematics::{WorkingMode, for_platform};
 use lattice::{Edge, Lattice, Tag};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -41,7 +41,7 @@ pub enum Face {
 /// A point of the boundary.
 #[derive(Clone, Debug, Serialize)]
 pub struct BoundaryVertex {
-    /// X, as [`crate::robot::Platform::coordinates`] orders it; glued angles in (−π, π].
+    /// X, as [`aspecta_robot::Platform::coordinates`] orders it; glued angles in (−π, π].
     pub pose: Vec<f64>,
     /// The faces it lies on: one, or two or three that meet there.
     pub faces: [Option<Face>; 3],

@@ -15,9 +15,9 @@ mod net;
 use crate::aspect::Analysis;
 use crate::domain::boundary::{Boundary, BoundaryVertex, Simplex};
 use crate::domain::field::Field;
-use crate::kinematics::for_platform;
-use crate::kinematics::modal::Constraint;
-use crate::robot::Limit;
+use aspecta_kinematics::for_platform;
+use aspecta_kinematics::modal::Constraint;
+use aspecta_robot::Limit;
 use net::Net;
 use serde::{Deserialize, Serialize};
 
@@ -140,6 +140,6 @@ fn is_driven(limit: &Limit) -> bool {
 }
 
 /// The limit of a constraint, if it is one of a driven joint of `robot`.
-fn is_driven_constraint(robot: &crate::robot::Robot, constraint: Constraint) -> bool {
+fn is_driven_constraint(robot: &aspecta_robot::Robot, constraint: Constraint) -> bool {
     matches!(constraint, Constraint::Limit(j, k) if is_driven(&robot.legs[j].limits[k]))
 }

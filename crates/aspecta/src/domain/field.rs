@@ -2,13 +2,13 @@
 
 use super::boundary::Face;
 use crate::aspect::{Analysis, DetSign, Place};
-use crate::kinematics::leg::drive;
-use crate::kinematics::limits::margin;
-use crate::kinematics::modal::{Constraint, LegClosure, ModalRows, closures};
-use crate::kinematics::placement::{Placement, leg_gradient, moved, wrench};
-use crate::kinematics::{SINGULAR, WorkingMode};
-use crate::num::{Interval, Jet, Scalar, each, without_turns};
-use crate::robot::{Robot, Window};
+use aspecta_kinematics::limits::margin;
+use aspecta_kinematics::modal::{Constraint, LegClosure, ModalRows, closures};
+use aspecta_kinematics::placement::{Placement, leg_gradient, moved, wrench};
+use aspecta_kinematics::{SINGULAR, WorkingMode};
+use aspecta_robot::legs::drive;
+use aspecta_robot::num::{Interval, Jet, Scalar, each, without_turns};
+use aspecta_robot::{Robot, Window};
 use nalgebra::{SMatrix, SVector};
 
 /// Most iterations of Newton's method.

@@ -1,7 +1,7 @@
 //! A uniform grid of poses.
 
-use crate::num::without_turns;
-use crate::robot::Window;
+use aspecta_robot::Window;
+use aspecta_robot::num::without_turns;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 

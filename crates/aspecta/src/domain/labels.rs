@@ -2,7 +2,7 @@
 
 use super::grid::{Grid, Pose};
 use super::sheet::Sheet;
-use crate::num::padded;
+use aspecta_robot::num::padded;
 use std::collections::BTreeSet;
 
 /// Not in the aspect.

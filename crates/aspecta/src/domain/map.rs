@@ -1,7 +1,7 @@
 //! A robot's map: what sections 3 and 4 of the paper have found about it, ready to be asked.
 //!
 //! A configuration (X, working mode) is looked up in three steps. Its class is a matter of signs, in doubles. Its aspect is that of a
-//! node of the grid next to it, to which [`crate::kinematics::path::along`] proves that the segment stays in the class (certified, as far as the node's own
+//! node of the grid next to it, to which [`aspecta_kinematics::path::curve::along`] proves that the segment stays in the class (certified, as far as the node's own
 //! aspect is: [`Sheet`]); where a class has one aspect, it is that. Its basic region is that of the nodes round it if they agree, else that of a
 //! node to which the other poses with its joint vector can be followed: numerical, true to a cell of the grid.
 
@@ -17,12 +17,12 @@ use super::mesh::Surfaces;
 use super::result::Domains;
 use super::sheet::{Belongs, Sheet};
 use crate::aspect::{Analysis, Count, DetSign, Measure};
-use crate::kinematics::demand::Demand;
-use crate::kinematics::modal::Constraint;
-use crate::kinematics::path::Along;
-use crate::kinematics::{KinematicsError, WorkingMode, for_platform};
-use crate::num::padded;
-use crate::robot::{Robot, Window};
+use aspecta_kinematics::demand::Demand;
+use aspecta_kinematics::modal::Constraint;
+use aspecta_kinematics::path::curve::Along;
+use aspecta_kinematics::{KinematicsError, WorkingMode, check_pose, for_platform};
+use aspecta_robot::num::padded;
+use aspecta_robot::{Robot, Window};
 use serde::{Deserialize, Serialize};
 
 /// Interval evaluations spent on a segment from a pose to a node.
@@ -132,7 +132,7 @@ impl Map {
     /// # Errors
     /// [`Nowhere`] if it is in no aspect.
     pub fn locate(&self, pose: &[f64], mode: WorkingMode) -> Result<Location, Nowhere> {
-        self.robot.check_pose(pose)?;
+        check_pose(&self.robot, pose)?;
         let det_a = for_platform!(self.robot.platform, sign_at(self, pose, mode))?;
         let mut location = Location { mode, det_a, aspect: None, region: None };
         let Some(class) = self.classes.iter().find(|c| c.mode == mode && c.det_a == det_a) else {

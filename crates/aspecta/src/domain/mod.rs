@@ -10,7 +10,7 @@
 mod analysis;
 pub mod boundary;
 pub mod characteristic;
-pub mod cusps;
+pub use aspecta_kinematics::cusps;
 mod field;
 mod grid;
 mod images;

@@ -4,9 +4,9 @@ use super::labels::Labels;
 use super::mesh::Mesh;
 use super::sheet::Sheet;
 use crate::aspect::{Analysis, DetSign, Measure};
-use crate::kinematics::WorkingMode;
-use crate::num::without_turns;
-use crate::robot::{Unbounded, Window};
+use aspecta_robot::WorkingMode;
+use aspecta_robot::num::without_turns;
+use aspecta_robot::{Unbounded, Window};
 use serde::{Deserialize, Serialize};
 
 /// How finely an aspect is partitioned.

@@ -3,12 +3,13 @@
 use super::field::Field;
 use super::grid::{Grid, Pose};
 use crate::aspect::{Analysis, DetSign};
-use crate::kinematics::direct::CAPACITY;
-use crate::kinematics::placement::Placement;
-use crate::kinematics::{WorkingMode, for_platform};
-use crate::num::{padded, without_turns};
-use crate::robot::{Platform, Robot, Window};
 use arrayvec::ArrayVec;
+use aspecta_kinematics::Kinematics;
+use aspecta_kinematics::direct::CAPACITY;
+use aspecta_kinematics::placement::Placement;
+use aspecta_kinematics::{WorkingMode, for_platform};
+use aspecta_robot::num::{padded, without_turns};
+use aspecta_robot::{Platform, Robot, Window};
 
 /// Which pose of a second list each pose of a first one has become.
 pub type Match = ArrayVec<usize, CAPACITY>;

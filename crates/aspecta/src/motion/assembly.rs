@@ -9,11 +9,12 @@ use super::modes::Route;
 use super::plan::refusal::aspect_at;
 use super::plan::{Plan, PlanOptions, Planner};
 use crate::aspect::{Analysis, DetSign};
-use crate::domain::cusps::{Cusp, CuspError, Options, cusps};
-use crate::kinematics::{KinematicsError, Solution, WorkingMode};
-use crate::num::without_turns;
 use crate::paving::Control;
-use crate::robot::Robot;
+use aspecta_kinematics::Kinematics;
+use aspecta_kinematics::cusps::{Cusp, CuspError, Options, cusps};
+use aspecta_kinematics::{KinematicsError, Solution, WorkingMode};
+use aspecta_robot::Robot;
+use aspecta_robot::num::without_turns;
 use serde::Serialize;
 use std::collections::BTreeMap;
 

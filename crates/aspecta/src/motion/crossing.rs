@@ -6,13 +6,13 @@
 //! every crossing: aspects of different signs are never joined so.
 
 use crate::aspect::{Analysis, DetSign, Place};
-use crate::kinematics::demand::{Demand, Margins, measures};
-use crate::kinematics::modal::closures;
-use crate::kinematics::path::{Along, Curve, along};
-use crate::kinematics::placement::Placement;
-use crate::kinematics::{WorkingMode, for_platform};
-use crate::num::Jet;
-use crate::robot::Robot;
+use aspecta_kinematics::demand::{Demand, Margins, measures};
+use aspecta_kinematics::modal::closures;
+use aspecta_kinematics::path::curve::{Along, Curve, along};
+use aspecta_kinematics::placement::Placement;
+use aspecta_kinematics::{WorkingMode, for_platform};
+use aspecta_robot::Robot;
+use aspecta_robot::num::Jet;
 use rayon::prelude::*;
 use serde::Serialize;
 use std::collections::BTreeMap;

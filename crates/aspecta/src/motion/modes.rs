@@ -1,14 +1,16 @@
 //! The graph of aspects joined through serial singularities, and plans across it.
 
+use super::between;
 use super::crossing::{Crossing, crossings};
 use super::plan::refusal::{aspect_at, sign_at, word};
 use super::plan::{End, Plan, PlanOptions, Planner, Refusal};
 use super::time::{Piece, Waypoint};
-use super::{between, go_on_from};
 use crate::aspect::{Analysis, Count, DetSign};
-use crate::kinematics::WorkingMode;
-use crate::kinematics::demand::Margins;
-use crate::robot::{Robot, Window};
+use aspecta_kinematics::Kinematics;
+use aspecta_kinematics::demand::Margins;
+use aspecta_kinematics::path::go_on_from;
+use aspecta_robot::WorkingMode;
+use aspecta_robot::{Robot, Window};
 use serde::Serialize;
 use std::collections::VecDeque;
 

@@ -9,14 +9,14 @@ use super::modes::ModeGraph;
 use super::plan::refusal::aspect_at;
 use super::plan::{PlanOptions, Planner};
 use crate::aspect::{Analysis, DetSign};
-use crate::kinematics::demand::{Demand, demands};
-use crate::kinematics::modal::Constraint;
-use crate::kinematics::path::{Along, Curve, along};
-use crate::kinematics::placement::Placement;
-use crate::kinematics::{KinematicsError, WorkingMode, for_platform};
-use crate::motion::named;
-use crate::num::{Interval, Scalar, Slope};
-use crate::robot::{Robot, Window};
+use aspecta_kinematics::demand::{Demand, demands};
+use aspecta_kinematics::modal::Constraint;
+use aspecta_kinematics::path::curve::{Along, Curve, along};
+use aspecta_kinematics::path::named;
+use aspecta_kinematics::placement::Placement;
+use aspecta_kinematics::{KinematicsError, WorkingMode, check_pose, for_platform};
+use aspecta_robot::num::{Interval, Scalar, Slope};
+use aspecta_robot::{Robot, Window};
 use serde::Serialize;
 use std::collections::VecDeque;
 
@@ -123,7 +123,7 @@ impl PoseSet {
     /// # Errors
     /// [`KinematicsError`] if a pose does not fit the robot.
     pub fn check(&self, robot: &Robot) -> Result<(), KinematicsError> {
-        self.parts().iter().flatten().try_for_each(|pose| robot.check_pose(pose))
+        self.parts().iter().flatten().try_for_each(|pose| check_pose(robot, pose))
     }
 
     /// Poses of which it is the hull, one list for each part that hangs together: the corners of a box, each pose by itself, each path.

@@ -1,8 +1,8 @@
-//! How far a paving goes, and how a caller watches and stops it.
+//! How far a paving goes, and why it ended.
 
-use crate::robot::Window;
+use aspecta_robot::MAX_BOXES;
+use aspecta_robot::Window;
 use serde::Serialize;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// How far a paving goes. Whatever is met first ends it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -20,8 +20,6 @@ pub struct Budget {
 
 /// Greatest depth a paving can have: boxes are then some 10⁻⁸ of the window wide, still a million times the spacing of doubles.
 pub const MAX_DEPTH: u32 = 26;
-/// Greatest number of boxes a paving holds (32 bytes each, so about 1 GiB); larger budgets are cut to it.
-pub const MAX_BOXES: u64 = 40_000_000;
 
 /// The share of a time budget after which the paving ends; counting its components takes about as long again.
 pub const PAVING_SHARE: f64 = 0.4;
@@ -63,40 +61,6 @@ impl Budget {
     }
 }
 
-/// How far the work has come.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Progress {
-    /// What is being done.
-    pub stage: &'static str,
-    /// Steps done in this stage.
-    pub done: u64,
-    /// Steps this stage is known to need.
-    pub total: u64,
-}
-
-/// How a caller watches and stops long work.
-#[derive(Clone, Copy)]
-pub struct Control<'a> {
-    /// Set it to true to stop: the result so far is returned.
-    pub cancelled: &'a AtomicBool,
-    /// Called now and then, from any thread.
-    pub progress: &'a (dyn Fn(Progress) + Sync),
-}
-
-impl Control<'static> {
-    /// For work that no one watches: progress is not shown and nothing stops it.
-    pub fn unwatched() -> Self {
-        static NEVER: AtomicBool = AtomicBool::new(false);
-        Self { cancelled: &NEVER, progress: &|_| {} }
-    }
-}
-
-impl Control<'_> {
-    pub(crate) fn is_cancelled(&self) -> bool {
-        self.cancelled.load(Ordering::Relaxed)
-    }
-}
-
 /// Why a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -123,7 +87,7 @@ impl Stop {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::robot::catalogue;
+    use aspecta_robot::catalogue;
 
     #[test]
     fn a_resolution_is_of_angles_where_no_length_varies() {

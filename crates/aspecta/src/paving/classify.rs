@@ -1,14 +1,16 @@
 //! What intervals prove of eight boxes at once, in every working mode.
 
-use super::tree::{ClassSet, Node, Paving};
-use crate::kinematics::WorkingMode;
-use crate::kinematics::chart::Chart;
-use crate::kinematics::limits::margin;
-use crate::kinematics::modal::{LegClosure, ModalRows};
-use crate::kinematics::placement::Placement;
-use crate::num::{Interval, LANES, Mask, Pack, Scalar, Slope, each};
-use crate::robot::{Robot, Window};
+use super::ClassSet;
+use super::tree::{Node, Paving};
 use arrayvec::ArrayVec;
+use aspecta_kinematics::chart::Chart;
+use aspecta_kinematics::chart::Coordinates;
+use aspecta_kinematics::limits::margin;
+use aspecta_kinematics::modal::{LegClosure, ModalRows};
+use aspecta_kinematics::placement::Placement;
+use aspecta_robot::WorkingMode;
+use aspecta_robot::num::{Interval, LANES, Mask, Pack, Scalar, Slope, each};
+use aspecta_robot::{Robot, Window};
 
 /// One coordinate of the boxes of one level, for every index along it: computed once a level where the level is well filled,
 /// so that no sine is evaluated in the inner loop.

@@ -6,7 +6,9 @@ mod refine;
 mod touch;
 mod tree;
 
-pub use budget::{Budget, Control, MAX_BOXES, MAX_DEPTH, PAVING_SHARE, Progress, Stop};
-pub use tree::{AXES, BoxOf, ClassSet, MODES, Mark, Node, Paving};
+pub use aspecta_robot::work::{Control, Progress};
+pub use aspecta_robot::{AXES, ClassSet, MAX_BOXES, MODES};
+pub use budget::{Budget, MAX_DEPTH, PAVING_SHARE, Stop};
+pub use tree::{BoxOf, Mark, Node, Paving};
 
 pub(crate) use refine::for_paving;

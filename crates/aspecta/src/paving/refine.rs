@@ -1,12 +1,14 @@
 //! Subdivision, level by level.
 
-use super::budget::{Budget, Control, MAX_BOXES, PAVING_SHARE, Progress, Stop};
+use super::ClassSet;
+use super::budget::{Budget, PAVING_SHARE, Stop};
 use super::classify::Classifier;
-use super::tree::{ClassSet, MODES, Node, Paving};
-use crate::kinematics::WorkingMode;
-use crate::kinematics::chart::Chart;
-use crate::num::LANES;
-use crate::robot::{Robot, Window};
+use super::tree::{Node, Paving};
+use super::{Control, MAX_BOXES, MODES, Progress};
+use aspecta_kinematics::chart::Chart;
+use aspecta_robot::WorkingMode;
+use aspecta_robot::num::LANES;
+use aspecta_robot::{Robot, Window};
 use rayon::prelude::*;
 use std::time::Instant;
 

@@ -1,18 +1,9 @@
 //! The tree of boxes.
 
-use crate::kinematics::WorkingMode;
-use crate::kinematics::chart::Chart;
-use crate::num::Interval;
-use crate::robot::Window;
-
-/// A set of classes, one bit each: bit 2m for mode m and det A > 0, bit 2m + 1 for mode m and det A < 0.
-pub type ClassSet = u16;
-
-/// Most modes of one paving.
-pub const MODES: usize = 8;
-
-/// Most coordinates that vary in one paving.
-pub const AXES: usize = 3;
+use aspecta_kinematics::chart::Chart;
+use aspecta_robot::WorkingMode;
+use aspecta_robot::num::Interval;
+use aspecta_robot::{ClassSet, Window};
 
 /// A box: cell `corner` of the grid window / 2^depth.
 ///
@@ -248,34 +239,5 @@ impl Paving {
             let child = unit.iter().enumerate().fold(0, |child, (a, u)| child | bit(u) << a);
             at = node.first_child + child;
         }
-    }
-}
-
-impl Window {
-    /// The coordinates that vary.
-    pub fn axes(&self) -> Vec<usize> {
-        (0..self.ranges.len()).filter(|&k| self.ranges[k].0 < self.ranges[k].1).collect()
-    }
-
-    /// Line `index` of 2^depth equal parts of coordinate k. The same line has the same double at every depth, so
-    /// cells of all depths fit without gaps.
-    pub fn grid_line(&self, k: usize, index: u32, depth: u32) -> f64 {
-        let (lo, hi) = self.ranges[k];
-        if index == 1 << depth {
-            return hi;
-        }
-        let part = f64::from(index) / (1u64 << depth) as f64;
-        lo + (hi - lo) * part
-    }
-
-    /// Where in the range of coordinate k the value lies, in [0, 1]; `None` if outside. A coordinate that is held has
-    /// one value, whose place is 0.
-    pub fn fraction(&self, k: usize, x: f64) -> Option<f64> {
-        let (lo, hi) = self.ranges[k];
-        if lo == hi {
-            return (x == lo).then_some(0.0);
-        }
-        let x = if self.glued[k] { lo + (x - lo).rem_euclid(std::f64::consts::TAU) } else { x };
-        (lo <= x && x <= hi).then(|| (x - lo) / (hi - lo))
     }
 }

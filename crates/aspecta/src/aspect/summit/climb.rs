@@ -1,8 +1,8 @@
 //! Whether a box has a direction in which all grows that may be the least there.
 
 use super::MOST;
-use crate::num::Interval;
 use arrayvec::ArrayVec;
+use aspecta_robot::num::Interval;
 
 /// A constraint over a box: its scaled values and its derivatives along the vectors of the frame.
 #[derive(Clone, Copy)]

@@ -2,8 +2,8 @@
 
 use super::leg::LegPart;
 use super::view::View;
-use crate::num::Interval;
 use arrayvec::ArrayVec;
+use aspecta_robot::num::Interval;
 
 /// M tangent vectors over a box, adapted to its singular legs.
 pub(super) struct Frame<const N: usize, const M: usize> {

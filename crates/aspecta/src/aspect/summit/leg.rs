@@ -1,10 +1,10 @@
 //! One leg over eight boxes, with its h in a given range.
 
 use super::view::{Field, Form, View, range};
-use crate::kinematics::limits::{LegAt, margin, unit};
-use crate::kinematics::placement::Placement;
-use crate::num::{Jet, Mask, Pack, Scalar, Slope, each};
-use crate::robot::Limit;
+use aspecta_kinematics::limits::{LegAt, margin, unit};
+use aspecta_kinematics::placement::Placement;
+use aspecta_robot::Limit;
+use aspecta_robot::num::{Jet, Mask, Pack, Scalar, Slope, each};
 
 /// What depends on the range of h.
 pub(super) struct LegPart<const N: usize, const M: usize> {

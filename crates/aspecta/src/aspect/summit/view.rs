@@ -4,15 +4,16 @@ use super::MOST;
 use super::climb::Growth;
 use super::frame::Frame;
 use super::leg::LegPart;
-use crate::aspect::scale::Scale;
-use crate::kinematics::WorkingMode;
-use crate::kinematics::condition::Conditioner;
-use crate::kinematics::modal::LegClosure;
-use crate::kinematics::placement::{Placement, cofactors, out_of_frame, wrench};
-use crate::num::{Interval, Jet, LANES, Mask, Pack, Scalar, Slope, each};
 use crate::paving::Paving;
-use crate::robot::Robot;
 use arrayvec::ArrayVec;
+use aspecta_kinematics::chart::Coordinates;
+use aspecta_kinematics::condition::Conditioner;
+use aspecta_kinematics::modal::LegClosure;
+use aspecta_kinematics::placement::{Placement, cofactors, out_of_frame, wrench};
+use aspecta_robot::Robot;
+use aspecta_robot::WorkingMode;
+use aspecta_robot::num::{Interval, Jet, LANES, Mask, Pack, Scalar, Slope, each};
+use aspecta_verify::certificate::Scale;
 
 /// Centred forms over eight boxes, differentiated with respect to the coordinates that vary, scaled to [−1, 1] in each box.
 pub(super) type Form<const M: usize> = Jet<Slope<Pack, M>, M>;

@@ -5,6 +5,7 @@ use crate::aspect::Analysis;
 use crate::domain::boundary::{Boundary, BoundaryVertex, Face, Simplex, onto};
 use crate::domain::field::Field;
 use arrayvec::ArrayVec;
+use aspecta_kinematics::Kinematics;
 use rayon::prelude::*;
 use std::collections::HashMap;
 

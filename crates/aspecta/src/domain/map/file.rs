@@ -2,13 +2,12 @@
 
 use super::{Map, MappedAspect, MappedClass};
 use crate::aspect::{Count, Measure};
-use crate::certificate::{Unsound, check_robot, holds, wanted};
 use crate::domain::grid::Grid;
 use crate::domain::labels::{Labels, OUTSIDE};
 use crate::domain::mesh::Surfaces;
 use crate::domain::result::Domains;
-use crate::kinematics::WorkingMode;
-use crate::robot::{Robot, SliceError};
+use aspecta_robot::WorkingMode;
+use aspecta_robot::{Robot, SliceError, Unsound, holds, wanted};
 use flate2::Compression;
 use flate2::bufread::GzDecoder;
 use flate2::write::GzEncoder;
@@ -141,7 +140,7 @@ impl Map {
             return Err(MapError::Version { found });
         }
         let file: FileIn = serde_json::from_slice(&text)?;
-        check_robot(&file.robot)?;
+        file.robot.check()?;
         holds(file.robot.dof() <= 3, "maps are made for robots with two or three degrees of freedom")?;
         let window = file.robot.slice(&[])?;
         let unit = Measure::over(&file.robot, &window);

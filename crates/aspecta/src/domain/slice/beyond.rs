@@ -10,8 +10,8 @@ use crate::aspect::UnionFind;
 use crate::domain::grid::Pose;
 use crate::domain::partition::{Partition, Region};
 use crate::domain::sheet::Sheet;
-use crate::num::without_turns;
 use crate::paving::Control;
+use aspecta_robot::num::without_turns;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 

@@ -18,8 +18,8 @@ use super::mesh::Mesh;
 use super::result::Domains;
 use super::sheet::Sheet;
 use crate::aspect::Analysis;
-use crate::kinematics::modal::Constraint;
 use arrayvec::ArrayVec;
+use aspecta_kinematics::modal::Constraint;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 

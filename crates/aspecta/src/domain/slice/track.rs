@@ -5,8 +5,8 @@ use crate::domain::characteristic::SAME_JOINTS;
 use crate::domain::field::Field;
 use crate::domain::grid::Pose;
 use crate::domain::sheet::Sheet;
-use crate::kinematics::for_platform;
-use crate::kinematics::modal::Constraint;
+use aspecta_kinematics::for_platform;
+use aspecta_kinematics::modal::Constraint;
 
 /// How often the first step is halved before a solution counts as lost: where it is lost is known to 2^−[`HALVINGS`] of the segment.
 const HALVINGS: i32 = 20;

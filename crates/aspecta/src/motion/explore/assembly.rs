@@ -5,11 +5,11 @@ use super::growth::Growth;
 use super::territory::Territory;
 use super::{Effort, End, ExploreError, classes_of, roaming};
 use crate::aspect::DetSign;
-use crate::kinematics::demand::Demand;
-use crate::kinematics::{DirectSolutions, Solution, WorkingMode};
-use crate::num::padded;
 use crate::paving::Control;
-use crate::robot::{Robot, Window};
+use aspecta_kinematics::demand::Demand;
+use aspecta_kinematics::{DirectSolutions, Solution, WorkingMode};
+use aspecta_robot::num::padded;
+use aspecta_robot::{Robot, Window};
 use serde::Serialize;
 use std::time::Instant;
 

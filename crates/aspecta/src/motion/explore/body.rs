@@ -83,7 +83,7 @@ pub(super) fn beside(a: &Pose, b: &Pose, free: [bool; 3], length: impl Fn(&Pose)
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::Random;
+    use aspecta_robot::num::Random;
 
     fn random_body(random: &mut Random) -> Body {
         let shares = [random.unit(), random.unit(), random.unit()];
@@ -96,8 +96,8 @@ mod tests {
         let mut random = Random::new(1);
         for _ in 0..100 {
             let pose: Pose = std::array::from_fn(|_| random.within((-7.0, 7.0)));
-            let placement = crate::kinematics::placement::Placement::<f64, 3>::at(
-                crate::robot::Platform::FreeBody,
+            let placement = aspecta_kinematics::placement::Placement::<f64, 3>::at(
+                aspecta_robot::Platform::FreeBody,
                 &pose,
             );
             let rotation = Body::at(&pose).turn.to_rotation_matrix();

@@ -4,8 +4,8 @@ use super::body::Pose;
 use super::roadmap::{Roadmap, Way};
 use super::territory::Territory;
 use super::{Effort, End};
-use crate::num::Random;
 use crate::paving::{Control, Progress};
+use aspecta_robot::num::Random;
 use rayon::prelude::*;
 use std::time::Instant;
 
@@ -171,10 +171,10 @@ impl<'a> Growth<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kinematics::demand::Demand;
     use crate::motion::explore::territory::roaming_window;
-    use crate::num::padded;
-    use crate::robot::catalogue;
+    use aspecta_kinematics::demand::Demand;
+    use aspecta_robot::catalogue;
+    use aspecta_robot::num::padded;
 
     /// Whatever is offered, only what is proved to lie in the class takes root.
     #[test]

@@ -5,8 +5,8 @@
 //!
 //! | what is said | what it rests on |
 //! |---|---|
-//! | a pose lies in a class | certified: all constraints are > 0 in intervals ([`along`](crate::kinematics::path::along) of a point) |
-//! | two poses of a component lie in one aspect | certified: every edge is proved by [`along`](crate::kinematics::path::along), so the component is a connected subset of the class |
+//! | a pose lies in a class | certified: all constraints are > 0 in intervals ([`along`](aspecta_kinematics::path::curve::along) of a point) |
+//! | two poses of a component lie in one aspect | certified: every edge is proved by [`along`](aspecta_kinematics::path::curve::along), so the component is a connected subset of the class |
 //! | two poses of different classes lie in different aspects | certified: working modes, and the sign of det A in a mode, are constant on an aspect |
 //! | there are at least as many aspects as classes with a pose | certified, by the lines above |
 //! | a class has k components | what was seen within the budget, numerical: their aspects may be one, which no segment tried has shown, and aspects that no pose was drawn in may exist. It bounds nothing |
@@ -32,10 +32,10 @@ pub use assembly::{JoinedSolutions, NumberedSolution, SharedClass, join_solution
 pub use plan::{NoWay, plan};
 
 use crate::aspect::DetSign;
-use crate::kinematics::WorkingMode;
-use crate::kinematics::demand::Demand;
 use crate::paving::Control;
-use crate::robot::{Platform, Robot, Unbounded, Window};
+use aspecta_kinematics::demand::Demand;
+use aspecta_robot::WorkingMode;
+use aspecta_robot::{Platform, Robot, Unbounded, Window};
 use growth::Growth;
 use seeds::Seeds;
 use serde::Serialize;
@@ -154,7 +154,7 @@ pub struct Component {
     pub samples: usize,
     /// That of them with the greatest |det Â|.
     pub representative: Vec<f64>,
-    /// Its |det Â| ([`Margins`](crate::kinematics::demand::Margins)). Numerical.
+    /// Its |det Â| ([`Margins`](aspecta_kinematics::demand::Margins)). Numerical.
     pub clearance: f64,
 }
 

@@ -6,14 +6,14 @@ use super::roadmap::Roadmap;
 use super::territory::Territory;
 use super::{Effort, End, ExploreError, roaming};
 use crate::aspect::DetSign;
-use crate::kinematics::WorkingMode;
-use crate::kinematics::demand::Demand;
 use crate::motion::plan::refusal::common_sign;
 use crate::motion::plan::shorten::improve;
 use crate::motion::plan::{FINAL, Plan, PlanOptions, Refusal};
-use crate::num::padded;
 use crate::paving::Control;
-use crate::robot::Robot;
+use aspecta_kinematics::demand::Demand;
+use aspecta_robot::Robot;
+use aspecta_robot::WorkingMode;
+use aspecta_robot::num::padded;
 use std::time::Instant;
 
 /// A path from `start` to `goal` in `mode`, proved segment by segment. Angles count modulo full turns, and (roll, pitch, yaw) means the same as

@@ -3,9 +3,10 @@
 
 use super::body::Pose;
 use crate::aspect::DetSign;
-use crate::kinematics::{Solution, WorkingMode};
-use crate::num::{Random, padded};
-use crate::robot::{Leg, Robot};
+use aspecta_kinematics::Kinematics;
+use aspecta_kinematics::{Solution, WorkingMode};
+use aspecta_robot::num::{Random, padded};
+use aspecta_robot::{Leg, Robot};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 

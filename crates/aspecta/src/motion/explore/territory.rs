@@ -1,12 +1,12 @@
 //! One class of aspects of a free body: what lies in it, and which ways through it are proved.
 
 use super::body::{Body, Pose, beside};
-use crate::kinematics::demand::{Demand, demands};
-use crate::kinematics::placement::Placement;
 use crate::motion::plan::Proof;
 use crate::motion::plan::cost::Cost;
-use crate::num::{Random, padded};
-use crate::robot::{Robot, Unbounded, Window};
+use aspecta_kinematics::demand::{Demand, demands};
+use aspecta_kinematics::placement::Placement;
+use aspecta_robot::num::{Random, padded};
+use aspecta_robot::{Robot, Unbounded, Window};
 
 /// The longest step of a way that is felt for, as a share of the window.
 const STEP: f64 = 0.06;

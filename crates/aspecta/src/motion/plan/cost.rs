@@ -1,10 +1,10 @@
 //! What a path costs: its length, the dearer the nearer it comes to a singularity. Numerical: it decides which of the sound paths is
 //! taken, never whether a path is sound.
 
-use crate::kinematics::demand::{Demand, Margins, measures};
-use crate::kinematics::for_platform;
-use crate::kinematics::placement::Placement;
-use crate::robot::{Platform, Robot, Window};
+use aspecta_kinematics::demand::{Demand, Margins, measures};
+use aspecta_kinematics::for_platform;
+use aspecta_kinematics::placement::Placement;
+use aspecta_robot::{Platform, Robot, Window};
 use std::f64::consts::TAU;
 
 /// Samples of a segment's cost, at least.

@@ -1,7 +1,7 @@
 //! Planning within a working mode: from one pose to another through one generalized aspect.
 //!
 //! The boxes that the analysis proved to lie in a class are a graph; the cheapest way over it becomes a polyline, whose waypoints are
-//! then left out and moved. What is returned is proved segment by segment ([`crate::kinematics::path::along`]), margins included; how
+//! then left out and moved. What is returned is proved segment by segment ([`aspecta_kinematics::path::curve::along`]), margins included; how
 //! it was found is no part of the proof.
 //!
 //! That no path exists is proved too, where it is so: det A is continuous along any motion in a working mode, so two signs of it cannot
@@ -16,11 +16,11 @@ pub(super) mod shorten;
 pub use refusal::{End, Refusal};
 
 use crate::aspect::{Analysis, DetSign};
-use crate::kinematics::WorkingMode;
-use crate::kinematics::demand::{Demand, Margins};
-use crate::kinematics::path::Along;
-use crate::num::padded;
-use crate::robot::{Robot, Window};
+use aspecta_kinematics::demand::{Demand, Margins};
+use aspecta_kinematics::path::curve::Along;
+use aspecta_robot::WorkingMode;
+use aspecta_robot::num::padded;
+use aspecta_robot::{Robot, Window};
 use cost::Cost;
 use roadmap::Roadmap;
 use serde::Serialize;

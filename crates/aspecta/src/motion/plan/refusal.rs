@@ -1,12 +1,12 @@
 //! Why there is no plan.
 
 use crate::aspect::{Analysis, DetSign};
-use crate::kinematics::demand::{Demand, Margins};
-use crate::kinematics::modal::Constraint;
-use crate::kinematics::path::{Along, Curve, along};
-use crate::kinematics::{KinematicsError, WorkingMode};
-use crate::num::count;
-use crate::robot::{Robot, Window};
+use aspecta_kinematics::demand::{Demand, Margins};
+use aspecta_kinematics::modal::Constraint;
+use aspecta_kinematics::path::curve::{Along, Curve, along};
+use aspecta_kinematics::{KinematicsError, WorkingMode, check_pose};
+use aspecta_robot::num::count;
+use aspecta_robot::{Robot, Window};
 use serde::Serialize;
 use std::fmt;
 
@@ -174,7 +174,7 @@ pub(in crate::motion) fn sign_at(
     mode: WorkingMode,
     (end, pose): (End, &[f64]),
 ) -> Result<DetSign, Refusal> {
-    robot.check_pose(pose).map_err(|error| Refusal::Pose { end, error })?;
+    check_pose(robot, pose).map_err(|error| Refusal::Pose { end, error })?;
     if !window.holds(&window.turned(pose)) && robot.window.iter().any(Option::is_some) {
         return Err(Refusal::Window(end));
     }

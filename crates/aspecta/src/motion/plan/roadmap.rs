@@ -3,10 +3,10 @@
 use super::Pose;
 use super::cost::Cost;
 use crate::aspect::Analysis;
-use crate::kinematics::demand::Margins;
 use crate::motion::search::cheapest_way;
-use crate::num::padded;
 use crate::paving::{ClassSet, Mark, Node};
+use aspecta_kinematics::demand::Margins;
+use aspecta_robot::num::padded;
 use rayon::prelude::*;
 use std::collections::{HashMap, HashSet};
 

@@ -1,0 +1,110 @@
+//! All common points of a family's target, tracked, completed by their conjugates, and proved.
+
+use super::Point;
+use super::forms::{Family, Quadrics};
+use super::prove::{Enclosed, Proved, differ};
+use super::track::{End, Ends, Pace, Tracker, polish};
+use aspecta_robot::num::Interval;
+
+/// A problem with real coefficients.
+pub(crate) struct Problem<'a, const V: usize, const F: usize> {
+    /// A generic member of its family.
+    start: &'a Quadrics<V, F>,
+    /// Its common points.
+    points: &'a [Point<V>],
+    /// What the coefficients lie in,
+    forms: Enclosed<V, F>,
+    /// and their midpoints.
+    target: Quadrics<V, F>,
+}
+
+/// Points of norm one whose difference is below this are taken for one.
+const SAME: f64 = 1e-9;
+/// Regular points with imaginary parts below this are tried as real ones.
+const NEARLY_REAL: f64 = 1e-6;
+
+impl<'a, const V: usize, const F: usize> Problem<'a, V, F> {
+    /// The quadrics `forms`, of the family of `start` with its common `points`.
+    pub fn new(start: &'a Quadrics<V, F>, points: &'a [Point<V>], forms: Enclosed<V, F>) -> Self {
+        let column = |c: &[Interval; V]| Point::real(c.map(Interval::mid));
+        let target = Quadrics { forms: forms.each_ref().map(|form| form.each_ref().map(column)) };
+        Self { start, points, forms, target }
+    }
+
+    /// Follows all paths; again and with care those that were lost or came to the same point as another.
+    ///
+    /// The ends are different points, as far as numbers tell; real ones have real coordinates.
+    pub fn solve(&self) -> Ends<V> {
+        let mut tracker = Tracker::new(Family { start: self.start, target: &self.target });
+        let mut ends: Ends<V> = self.points.iter().map(|x| tracker.follow(x, Pace::QUICK)).collect();
+        for pace in [Pace::CAREFUL, Pace::PATIENT] {
+            let doubtful = |i: &usize| {
+                !ends[*i].arrived || (0..ends.len()).any(|j| j != *i && coincide(&ends[*i], &ends[j]))
+            };
+            let again: Vec<usize> = (0..ends.len()).filter(doubtful).collect();
+            for i in again {
+                ends[i] = tracker.follow(&self.points[i], pace);
+            }
+        }
+        let mut found = Ends::new();
+        for end in ends {
+            let point = if end.arrived { as_real(&self.target, end.point) } else { end.point };
+            add(&mut found, End { point, ..end });
+        }
+        // Real quadrics have the conjugates in common too.
+        for k in 0..found.len() {
+            let end = found[k];
+            if end.arrived && !end.point.is_real() {
+                add(&mut found, End { point: end.point.conjugate(), ..end });
+            }
+        }
+        found
+    }
+
+    /// The common points next to real points that are good approximations; `None` if two of them come out as one.
+    pub fn near(&self, points: &[Point<V>]) -> Option<Ends<V>> {
+        let mut ends = Ends::new();
+        for x in points {
+            add(&mut ends, End { point: polish(&self.target, *x), arrived: true });
+        }
+        (ends.len() == points.len()).then_some(ends)
+    }
+
+    /// The proofs of the ends that are proved to be common points, each different from all the others.
+    pub fn prove(&self, ends: &Ends<V>) -> Vec<Option<Proved<V>>> {
+        let mut proofs: Vec<Option<Proved<V>>> = Vec::with_capacity(ends.len());
+        for end in ends {
+            let proof = if end.arrived { Proved::near(&self.forms, &self.target, &end.point) } else { None };
+            proofs.push(proof.filter(|new| proofs.iter().flatten().all(|old| differ(old, new))));
+        }
+        proofs
+    }
+}
+
+/// The real point next to a nearly real one, if it is there: if the method that looks for it stays.
+fn as_real<const V: usize, const F: usize>(target: &Quadrics<V, F>, x: Point<V>) -> Point<V> {
+    let off = x.im.iter().fold(0.0f64, |most, y| most.max(y.abs()));
+    if off > NEARLY_REAL {
+        return x;
+    }
+    let real = polish(target, Point::real(x.re));
+    if distance(&real, &x) <= 10.0 * off + SAME { real } else { x }
+}
+
+/// Between points of norm one: the sine of their angle.
+fn distance<const V: usize>(a: &Point<V>, b: &Point<V>) -> f64 {
+    let mut gap = *a;
+    gap.add_scaled(-b.conjugate().dot(a), b);
+    gap.norm()
+}
+
+fn coincide<const V: usize>(a: &End<V>, b: &End<V>) -> bool {
+    a.arrived && b.arrived && distance(&a.point, &b.point) < SAME
+}
+
+/// Adds an end that is not there already, as long as there is room.
+fn add<const V: usize>(found: &mut Ends<V>, end: End<V>) {
+    if !found.is_full() && found.iter().all(|other| !coincide(other, &end)) {
+        found.push(end);
+    }
+}

@@ -1,0 +1,108 @@
+//! What a robot meets on a stretch that is proved: enclosures over the tube.
+
+use super::direct::{Follower, check_joints};
+use super::on_the_way::OnTheWay;
+use super::tube::{Model, Stretch};
+use super::{Refusal, unpadded};
+use crate::demand::unit_of_moments;
+use crate::limits::{LegAt, margin};
+use crate::placement::{determinant, wrench};
+use crate::{WorkingMode, for_platform};
+use aspecta_robot::Actuator;
+use aspecta_robot::legs::eliminate;
+use aspecta_robot::num::{Ball, Interval, Scalar, Slope, dot, padded};
+
+/// Enclosures of what the robot meets on one certified stretch of joint vectors: they hold the values at every configuration of the solution
+/// curve. Whatever `det_a` may hold, det A does not vanish: that is what the stretch is certified for.
+#[derive(Clone, Debug)]
+pub struct Survey {
+    /// det A.
+    pub det_a: Interval,
+    /// det Â, as [`Margins`](crate::demand::Margins) defines it.
+    pub parallel: Interval,
+    /// B_jj / max |B_jj|, with its sign; −1 for struts.
+    pub serial: Vec<Interval>,
+    /// What is > 0 strictly within limit k of leg j (both from 0): (j, k, [`margin`]).
+    pub limits: Vec<(usize, usize, Interval)>,
+    /// The working mode at the end. Proved if no enclosure of `serial` holds 0, else numerical.
+    pub mode: WorkingMode,
+}
+
+type Over = Slope<Ball, 1>;
+
+impl Follower {
+    /// Goes on to the joint vector `q` in one piece, as [`Follower::step`] does in several, and encloses what is met on the way. What is proved
+    /// holds for every path of joint vectors that stays within `sag` (per joint) of the straight segment, at the same share of the way.
+    ///
+    /// # Errors
+    /// [`Refusal`]; the state is then as before, and a shorter piece may do.
+    pub fn survey(&mut self, q: &[f64], sag: &[f64]) -> Result<Survey, Refusal> {
+        check_joints(self.robot(), q)?;
+        for_platform!(self.robot().platform, advance(self, q, sag))
+    }
+}
+
+fn advance<const D: usize, const N: usize>(
+    follower: &mut Follower,
+    q: &[f64],
+    sag: &[f64],
+) -> Result<Survey, Refusal> {
+    let (model, start) = follower.model_and_state::<D, N>();
+    let goal = unpadded::<N>(&padded(q));
+    let sag = unpadded::<N>(&padded(sag));
+    let slack: [f64; N] =
+        std::array::from_fn(|j| sag[j] + 4.0 * f64::EPSILON * start.q[j].abs().max(goal[j].abs()));
+    let proved = model.prove_and_look(&start, &goal, &slack, |stretch| model.survey(stretch));
+    let Some((proof, mut survey)) = proved else {
+        return Err(model.refusal(&start, &start.q, &goal, 0.0));
+    };
+    survey.mode = model.mode(&proof);
+    follower.set_state(&proof.end, survey.mode);
+    Ok(survey)
+}
+
+impl<const D: usize, const N: usize> Model<'_, D, N> {
+    fn survey(&self, stretch: &Stretch<'_, D, N>) -> Survey {
+        let robot = self.robot;
+        let (placement, _) = self.placements::<Over>(stretch);
+        let mut rows = [[Over::zero(); N]; N];
+        let mut unit = Over::constant(unit_of_moments(robot));
+        let mut serial = Vec::with_capacity(N);
+        let mut limits = Vec::new();
+        for (j, leg) in robot.legs.iter().enumerate().take(N) {
+            let over = stretch.leg(leg, j, &placement);
+            rows[j] = wrench(robot.platform, &over.gradient, &over.arm);
+            unit = unit
+                * match leg.actuator {
+                    Actuator::Revolute { rod, .. } | Actuator::Prismatic { rod } => Over::constant(rod + rod),
+                    Actuator::Strut => norm(&over.gradient),
+                    Actuator::Spherical { .. } => norm(&rows[j]),
+                };
+            // B = s h, or 2 s h for a slider.
+            let sh = match leg.actuator {
+                Actuator::Prismatic { .. } => over.slope.scale(Interval::point(0.5)),
+                _ => over.slope,
+            };
+            serial.push(match leg.actuator.greatest_reach() {
+                Some(most) => range(sh) / most.sqrt(),
+                None => Interval::point(-1.0),
+            });
+            let closure = eliminate(&leg.actuator, &over.span);
+            let crank = over.turn.map(|(sin, cos)| (cos, sin));
+            let at = LegAt { leg, span: over.span, closure, crank };
+            let margins = leg.limits.iter().map(|limit| range(margin(limit, &at, sh, &placement)));
+            limits.extend(margins.enumerate().map(|(k, margin)| (j, k, margin)));
+        }
+        let det: Over = determinant(&rows);
+        let mode = WorkingMode::from_signs([]);
+        Survey { det_a: range(det), parallel: range(det / unit), serial, limits, mode }
+    }
+}
+
+fn norm<const K: usize>(v: &[Over; K]) -> Over {
+    dot(v, v).sqrt()
+}
+
+fn range(x: Over) -> Interval {
+    x.range().into()
+}

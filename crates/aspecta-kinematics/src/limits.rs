@@ -1,0 +1,128 @@
+//! Joint limits as functions that are positive strictly inside.
+
+use super::placement::{Placement, into_frame};
+use aspecta_robot::legs::{Closure, Drive, drive, sum_of_squares};
+use aspecta_robot::num::{Interval, Scalar, dot, dot_constant, each};
+use aspecta_robot::{Actuator, Leg, Limit};
+
+/// A leg at a pose, with q eliminated: what a limit looks at.
+pub struct LegAt<'a, T, const D: usize> {
+    /// The leg.
+    pub leg: &'a Leg,
+    /// d = C − A in the leg's frame.
+    pub span: [T; D],
+    /// The leg equation with q eliminated.
+    pub closure: Closure<T, D>,
+    /// (cos q, sin q), where the leg's own coordinates are used.
+    pub crank: Option<(T, T)>,
+}
+
+impl<'a, T: Scalar, const D: usize> LegAt<'a, T, D> {
+    /// The same in another scalar.
+    pub fn map<U: Scalar>(&self, to: impl Fn(T) -> U) -> LegAt<'a, U, D> {
+        let vector = |v: &[T; D]| each!(|k| to(v[k]));
+        let Closure { reach, weight, fixed, swing } = &self.closure;
+        LegAt {
+            leg: self.leg,
+            span: vector(&self.span),
+            closure: Closure {
+                reach: to(*reach),
+                weight: to(*weight),
+                fixed: vector(fixed),
+                swing: vector(swing),
+            },
+            crank: self.crank.map(|(cos, sin)| (to(cos), to(sin))),
+        }
+    }
+
+    fn drive(&self, sh: T) -> Drive<T> {
+        match self.crank {
+            Some((cos, sin)) => Drive::Angle { cos, sin, norm: T::constant(Interval::point(1.0)) },
+            None => drive(&self.leg.actuator, &self.span, &self.closure, sh),
+        }
+    }
+}
+
+/// c_k > 0: how far inside `limit` the leg is in posture s, where `sh` = s h. Zero at the limit. The unit differs
+/// from limit to limit; only the sign has a meaning.
+pub fn margin<T: Scalar, const D: usize>(
+    limit: &Limit,
+    at: &LegAt<'_, T, D>,
+    sh: T,
+    placement: &Placement<T, D>,
+) -> T {
+    match limit {
+        Limit::ActuatorAngle { middle, half_cos } => match at.drive(sh) {
+            Drive::Angle { cos, sin, norm } => {
+                cos.scale(middle.0) + sin.scale(middle.1) - norm.scale(*half_cos)
+            }
+            Drive::Length(_) => T::constant(Interval::ENTIRE),
+        },
+        Limit::ActuatorLength { min, max } => match at.leg.actuator {
+            Actuator::Strut => {
+                let q2 = sum_of_squares(&at.span);
+                (q2 - T::constant(min.square())) * (T::constant(max.square()) - q2)
+            }
+            _ => {
+                let q = at.span[0] + sh;
+                (q - T::constant(*min)) * (T::constant(*max) - q)
+            }
+        },
+        Limit::Elbow { middle, half_cos } => {
+            let (bend, both) = bend(at);
+            bend.scale(middle.0) - sh.scale(middle.1) - T::constant(both * *half_cos)
+        }
+        Limit::SpatialElbow { min_cos, max_cos } => {
+            let (bend, both) = bend(at);
+            (T::constant(both * *min_cos) - bend) * (bend - T::constant(both * *max_cos))
+        }
+        Limit::BaseCone { axis, half_cos } => {
+            let rod = rod_direction(at, sh);
+            dot_constant(&axis[..D], &rod) - rod_length(at).scale(*half_cos)
+        }
+        Limit::PlatformCone { axis, half_cos } => {
+            let axis = into_frame(at.leg, &placement.turned(axis));
+            dot(&axis, &rod_direction(at, sh)) - rod_length(at).scale(*half_cos)
+        }
+    }
+}
+
+/// What [`margin`] is a multiple of: divided by it, the margin is one and the same function of the configuration, whatever
+/// coordinates it was computed in. Positive wherever the leg closes strictly.
+pub fn unit<T: Scalar, const D: usize>(limit: &Limit, at: &LegAt<'_, T, D>, sh: T) -> T {
+    match limit {
+        Limit::ActuatorAngle { .. } => match at.drive(sh) {
+            Drive::Angle { norm, .. } => norm,
+            Drive::Length(_) => T::constant(Interval::ENTIRE),
+        },
+        Limit::BaseCone { .. } | Limit::PlatformCone { .. } => rod_length(at),
+        _ => T::constant(Interval::point(1.0)),
+    }
+}
+
+/// (2LM cos ψ, 2LM) with ψ the angle at B: ‖d‖² = L² + M² + 2LM cos ψ, and 2LM sin ψ = −s h.
+fn bend<T: Scalar, const D: usize>(at: &LegAt<'_, T, D>) -> (T, Interval) {
+    match at.leg.actuator {
+        Actuator::Revolute { crank, rod } => (
+            sum_of_squares(&at.span) - T::constant(crank.square() + rod.square()),
+            Interval::point(2.0) * crank * rod,
+        ),
+        _ => (T::constant(Interval::ENTIRE), Interval::point(1.0)),
+    }
+}
+
+/// The rod's direction in the leg's frame, times [`rod_length`].
+fn rod_direction<T: Scalar, const D: usize>(at: &LegAt<'_, T, D>, sh: T) -> [T; D] {
+    each!(|k| at.closure.fixed[k] + sh * at.closure.swing[k])
+}
+
+/// ‖weight · ∂f/∂d‖ = 2 M weight (2 q for a strut).
+pub(super) fn rod_length<T: Scalar, const D: usize>(at: &LegAt<'_, T, D>) -> T {
+    match at.leg.actuator {
+        Actuator::Revolute { rod, .. } | Actuator::Prismatic { rod } => at.closure.weight.scale(rod + rod),
+        _ => {
+            let q = at.closure.reach.sqrt();
+            q + q
+        }
+    }
+}

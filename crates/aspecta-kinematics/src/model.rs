@@ -1,0 +1,124 @@
+//! The two geometric models of a robot and what is read off them, in one place.
+
+use super::{
+    DirectSolutions, Jacobians, KinematicsError, LegSolutions, OutOfReach, Poses, Solution, State,
+    check_joints, check_pose, direct, for_platform, inverse, jacobian, out_of_reach, singularity,
+};
+use aspecta_robot::{Robot, WorkingMode};
+
+/// The inverse and the direct geometric model of a robot, its Jacobians and its singularities.
+pub trait Kinematics {
+    /// All inverse solutions of `pose` within reach, one per working mode, in the order of
+    /// [`Robot::working_modes`]; empty if the pose is out of reach. Solutions beyond joint limits are
+    /// listed too, with `within_limits` false.
+    ///
+    /// *Certified* means: interval arithmetic proves H_j > 0 for every leg, so by the closed form
+    /// ([`eliminate`]) exactly one configuration of each working mode exists here.
+    ///
+    /// # Errors
+    /// [`KinematicsError`] if `pose` has the wrong length or is not finite.
+    fn inverse(&self, pose: &[f64]) -> Result<Vec<Solution>, KinematicsError>;
+
+    /// g_i(X) of (5): the joint vector of `pose` in `mode`, or `None` out of reach. Limits are not looked at.
+    ///
+    /// # Errors
+    /// [`KinematicsError`] if `pose` has the wrong length or is not finite.
+    fn inverse_in(&self, pose: &[f64], mode: WorkingMode) -> Result<Option<Vec<f64>>, KinematicsError>;
+
+    /// What each leg allows at `pose`.
+    ///
+    /// # Errors
+    /// [`KinematicsError`] if `pose` has the wrong length or is not finite.
+    fn leg_solutions(&self, pose: &[f64]) -> Result<Vec<LegSolutions>, KinematicsError>;
+
+    /// The legs that have no inverse solution at `pose` (proved by intervals), limits not looked at.
+    /// Empty exactly if [`Kinematics::inverse`] has solutions.
+    ///
+    /// # Errors
+    /// [`KinematicsError`] if `pose` has the wrong length or is not finite.
+    fn out_of_reach(&self, pose: &[f64]) -> Result<Vec<OutOfReach>, KinematicsError>;
+
+    /// All real poses X with f(X, q) = 0: the direct solutions of q in every working mode. Solutions beyond joint
+    /// limits are listed too, with `within_limits` false.
+    ///
+    /// *Certified* means: there is a box round the pose in which the Krawczyk operator proves exactly one
+    /// solution, for every q within a few units in the last place (for bodies that turn in space a ball in homogeneous coordinates, and a
+    /// theorem of the same kind). Near a parallel singularity, where two
+    /// solutions meet, that may not be possible; a pose whose leg equations hold to rounding is then returned once
+    /// or twice, uncertified. [`Kinematics::direct_certified`] tells, too, whether the list is proved complete.
+    ///
+    /// # Errors
+    /// [`KinematicsError`] if `q` has the wrong length or is not finite, if a strut's length is not positive, or if the
+    /// solutions are infinitely many.
+    fn direct(&self, q: &[f64]) -> Result<Vec<Solution>, KinematicsError>;
+
+    /// [`Kinematics::direct`] with the proof that no solution is missing, where there is one.
+    ///
+    /// # Errors
+    /// As [`Kinematics::direct`].
+    fn direct_certified(&self, q: &[f64]) -> Result<DirectSolutions, KinematicsError>;
+
+    /// The poses of [`Kinematics::direct`] alone: no labels, no certificates, no allocation. For control loops.
+    ///
+    /// # Errors
+    /// As [`Kinematics::direct`].
+    fn direct_poses(&self, q: &[f64]) -> Result<Poses, KinematicsError>;
+
+    /// A, B and the residual of the leg equations at (X, q), whether or not they hold there.
+    ///
+    /// # Errors
+    /// [`KinematicsError`] if a vector has the wrong length or is not finite.
+    fn jacobians(&self, pose: &[f64], q: &[f64]) -> Result<Jacobians, KinematicsError>;
+
+    /// The state of the configuration (`pose`, `q`). The two need not belong together: look at
+    /// [`State::residual`].
+    ///
+    /// # Errors
+    /// [`KinematicsError`] if `pose` or `q` has the wrong length or is not finite.
+    fn state(&self, pose: &[f64], q: &[f64]) -> Result<State, KinematicsError>;
+}
+
+impl Kinematics for Robot {
+    fn inverse(&self, pose: &[f64]) -> Result<Vec<Solution>, KinematicsError> {
+        inverse::inverse(self, pose)
+    }
+
+    fn inverse_in(&self, pose: &[f64], mode: WorkingMode) -> Result<Option<Vec<f64>>, KinematicsError> {
+        inverse::inverse_in(self, pose, mode)
+    }
+
+    fn leg_solutions(&self, pose: &[f64]) -> Result<Vec<LegSolutions>, KinematicsError> {
+        inverse::leg_solutions(self, pose)
+    }
+
+    fn out_of_reach(&self, pose: &[f64]) -> Result<Vec<OutOfReach>, KinematicsError> {
+        out_of_reach::out_of_reach(self, pose)
+    }
+
+    fn direct(&self, q: &[f64]) -> Result<Vec<Solution>, KinematicsError> {
+        direct::direct(self, q)
+    }
+
+    fn direct_certified(&self, q: &[f64]) -> Result<DirectSolutions, KinematicsError> {
+        direct::direct_certified(self, q)
+    }
+
+    fn direct_poses(&self, q: &[f64]) -> Result<Poses, KinematicsError> {
+        direct::direct_poses(self, q)
+    }
+
+    fn jacobians(&self, pose: &[f64], q: &[f64]) -> Result<Jacobians, KinematicsError> {
+        check_pose(self, pose)?;
+        check_joints(self, q)?;
+        Ok(jacobians(self, pose, q))
+    }
+
+    fn state(&self, pose: &[f64], q: &[f64]) -> Result<State, KinematicsError> {
+        singularity::state(self, pose, q)
+    }
+}
+
+fn jacobians(robot: &Robot, pose: &[f64], q: &[f64]) -> Jacobians {
+    use jacobian::jacobians;
+    for_platform!(robot.platform, jacobians(robot, pose, q))
+}

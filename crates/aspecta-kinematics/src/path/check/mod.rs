@@ -1,0 +1,275 @@
+//! Is a path free of singularities? Proved by intervals everywhere along it, not at samples.
+//!
+//! Paths of poses are checked in a working mode ([`check_path`], [`check_poses`]); paths of joint vectors from a direct solution on
+//! ([`check_joints`]), by following it as [`Follower`](crate::follow::Follower) does.
+
+mod clearance;
+mod error;
+mod join;
+mod joints;
+mod profile;
+
+pub use clearance::{Clearance, Least};
+pub use error::PathError;
+pub use join::Joined;
+pub use joints::check_joints;
+pub use profile::ProfilePoint;
+
+use crate::Kinematics;
+use crate::demand::{Demand, Margins};
+use crate::modal::Constraint;
+use crate::path::curve::{Along, Curve, along};
+use crate::path::named;
+use crate::path::units;
+use aspecta_robot::Robot;
+use aspecta_robot::WorkingMode;
+use clearance::{PoseStretch, clearance};
+use serde::Serialize;
+
+/// Interval evaluations a segment may take before its check is given up as undecided.
+const EFFORT: usize = 200_000;
+
+/// What a path is, besides its samples, and what is asked of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct PathOptions {
+    /// How its samples are joined.
+    pub joined: Joined,
+    /// How far it must stay from singularities.
+    pub margins: Margins,
+}
+
+/// What was found of a path.
+#[derive(Clone, Debug, Serialize)]
+pub struct PathCheck {
+    /// How its samples were joined. With [`Joined::None`] all that is said is of the samples alone.
+    pub joined: Joined,
+    /// The working mode: of a path of joint vectors, the one it starts in.
+    pub mode: WorkingMode,
+    /// `Some(true)`: proved to meet no singularity (det A keeps its sign, no B_jj vanishes) anywhere along
+    /// it. `Some(false)`: proved to meet one or to leave the workspace. `None`: undecided.
+    pub singularity_free: Option<bool>,
+    /// Whether it is proved to keep the margins asked for. `Some(true)` if none are; `None` also where a singularity comes first.
+    pub keeps_margins: Option<bool>,
+    /// The same for joint limits; `Some(true)` if the robot has none.
+    pub within_limits: Option<bool>,
+    /// The margins asked for.
+    pub margins: Margins,
+    /// The first place at which something fails or cannot be decided.
+    pub obstacle: Option<Obstacle>,
+    /// Where other things fail further on, each for the first time.
+    pub further: Vec<Obstacle>,
+    /// How near it comes to singularities, up to the first it meets. Certified. `None` if there is no path before that.
+    pub clearance: Option<Clearance>,
+    /// Joint vector at the start and at the end, if they are in reach.
+    pub ends: [Option<Vec<f64>>; 2],
+    /// Pose at the start, and at the end if the path gets there.
+    pub end_poses: [Option<Vec<f64>>; 2],
+    /// Figure 11: det A and B_jj along the path, each divided by its largest modulus. Numerical.
+    pub profile: Vec<ProfilePoint>,
+}
+
+impl PathCheck {
+    /// What the first obstacles to each [`Asked`], in its order, come to; the rest is empty.
+    fn new(mode: WorkingMode, options: &PathOptions, found: [Option<Obstacle>; 3]) -> Self {
+        let verdict = |o: &Option<Obstacle>| match o {
+            None => Some(true),
+            Some(o) if o.is_of_its_own(&options.margins) => o.proved.then_some(false),
+            Some(_) => None,
+        };
+        let [singularity_free, keeps_margins, within_limits] = [0, 1, 2].map(|k| verdict(&found[k]));
+        let own = found.into_iter().flatten().filter(|o| o.is_of_its_own(&options.margins));
+        let mut further: Vec<_> = own.collect();
+        further.sort_by(|a, b| a.segment.cmp(&b.segment).then(a.t.0.total_cmp(&b.t.0)));
+        let obstacle = if further.is_empty() { None } else { Some(further.remove(0)) };
+        Self {
+            joined: options.joined,
+            mode,
+            singularity_free,
+            keeps_margins,
+            within_limits,
+            margins: options.margins,
+            obstacle,
+            further,
+            clearance: None,
+            ends: [None, None],
+            end_poses: [None, None],
+            profile: Vec::new(),
+        }
+    }
+
+    /// Whether all that was asked is proved.
+    pub fn is_sound(&self) -> bool {
+        [self.singularity_free, self.keeps_margins, self.within_limits] == [Some(true); 3]
+    }
+}
+
+/// What is asked of every configuration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Asked {
+    /// To be in reach and not singular.
+    Regular,
+    /// To keep the margins from singularities.
+    Margin,
+    /// To be within joint limits.
+    Limit,
+}
+
+/// Where a path fails, or is in doubt.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Obstacle {
+    /// What was asked.
+    pub asked: Asked,
+    /// Segment, from 1 (the sample, where samples are not joined).
+    pub segment: usize,
+    /// Start and end of the stretch, t ∈ [0, 1] along the segment.
+    pub t: (f64, f64),
+    /// Pose at the middle of the stretch; of joint vectors, at its start.
+    pub pose: Vec<f64>,
+    /// What fails there; in JSON `{"kind": "det A"}`, `{"kind": "reach", "leg"}` or `{"kind": "limit", "leg", "limit"}`, counted from 1.
+    #[serde(serialize_with = "named::constraint")]
+    pub constraint: Constraint,
+    /// Whether the failure is proved (else undecided).
+    pub proved: bool,
+}
+
+impl Obstacle {
+    /// Whether what fails is what was asked, and not that nobody can tell beyond a singularity.
+    fn is_of_its_own(&self, margins: &Margins) -> bool {
+        match (self.asked, self.constraint) {
+            (Asked::Regular, _) | (Asked::Limit, Constraint::Limit(..)) => true,
+            (Asked::Margin, Constraint::Det) => margins.parallel > 0.0,
+            (Asked::Margin, Constraint::Reach(_)) => margins.serial > 0.0,
+            _ => false,
+        }
+    }
+}
+
+impl PathOptions {
+    fn check(&self) -> Result<(), PathError> {
+        let Margins { parallel, serial } = self.margins;
+        if !(0.0..f64::INFINITY).contains(&parallel) {
+            return Err(PathError::Margin { value: parallel, of: "|det Â|", below: "infinity" });
+        }
+        if !(0.0..1.0).contains(&serial) {
+            return Err(PathError::Margin { value: serial, of: "|B_jj| / max", below: "1" });
+        }
+        Ok(())
+    }
+}
+
+/// Checks the path of straight segments (in pose coordinates; angles as real numbers, so a turn from 3 to −3 rad goes
+/// the long way) through `poses` in `mode`: [`check_poses`] with nothing else asked.
+///
+/// # Errors
+/// As [`check_poses`].
+pub fn check_path(robot: &Robot, poses: &[Vec<f64>], mode: WorkingMode) -> Result<PathCheck, PathError> {
+    check_poses(robot, poses, mode, &PathOptions::default())
+}
+
+/// Checks the path through `poses` in `mode`.
+///
+/// *Proved* rests on [`along`]: the constraints are > 0 in intervals over stretches that cover every segment, or at every sample
+/// if they are not joined. The path is followed up to the first place at which it meets a singularity or leaves the workspace.
+///
+/// # Errors
+/// [`PathError`] if the poses or the mode do not fit the robot, or if the start is out of reach or singular.
+pub fn check_poses(
+    robot: &Robot,
+    poses: &[Vec<f64>],
+    mode: WorkingMode,
+    options: &PathOptions,
+) -> Result<PathCheck, PathError> {
+    check_input(robot, poses, mode, options)?;
+    let unlimited = without_limits(robot);
+    let sign = sign_at(&unlimited, mode, &poses[0]).ok_or(PathError::StartSingular)?;
+    let PathOptions { joined, margins } = *options;
+    let curves = join::join(poses, &units(robot)[..robot.dof()], joined);
+    let class = Demand::class(mode, sign);
+    let effort = if joined == Joined::None { 1 } else { EFFORT };
+    let found = |robot: &Robot, margins: Margins, asked: Asked| {
+        first_obstacle(robot, &Demand { margins, ..class }, &curves, effort, asked)
+    };
+    let singular = found(&unlimited, Margins::default(), Asked::Regular);
+    let near = margins.are_any().then(|| found(&unlimited, margins, Asked::Margin)).flatten();
+    let limit = is_limited(robot).then(|| found(robot, Margins::default(), Asked::Limit)).flatten();
+
+    let walked = singular.as_ref().map_or(curves.len(), |o| o.segment);
+    let until = |k: usize| match &singular {
+        _ if joined == Joined::None => 0.0,
+        Some(o) if o.segment == k + 1 => o.t.0,
+        _ => 1.0,
+    };
+    let known = if joined == Joined::None && singular.is_some() { walked - 1 } else { walked };
+    let stretch = |k| PoseStretch { robot, mode, curve: &curves[k], segment: k + 1, from: 0.0, to: until(k) };
+    let stretches: Vec<_> = (0..known).map(stretch).collect();
+    let parts = profile::parts(curves.len());
+    let profile = profile::profile(robot, &curves[..walked], mode, parts, joined == Joined::None);
+    let end_poses = [poses.first(), poses.last()].map(|p| p.cloned());
+    let joints = |p: &Option<Vec<f64>>| p.as_ref().and_then(|p| robot.inverse_in(p, mode).ok().flatten());
+    let ends = [joints(&end_poses[0]), joints(&end_poses[1])];
+    let clearance = clearance(&stretches, robot.dof());
+    let profile = profile::normalised(profile);
+    let check = PathCheck::new(mode, options, [singular, near, limit]);
+    Ok(PathCheck { clearance, ends, end_poses, profile, ..check })
+}
+
+fn check_input(
+    robot: &Robot,
+    poses: &[Vec<f64>],
+    mode: WorkingMode,
+    options: &PathOptions,
+) -> Result<(), PathError> {
+    options.check()?;
+    let (least, wanted) = if options.joined == Joined::None { (1, "one pose") } else { (2, "two poses") };
+    if poses.len() < least {
+        return Err(PathError::TooShort { wanted, found: poses.len() });
+    }
+    for (k, pose) in poses.iter().enumerate() {
+        crate::check_pose(robot, pose).map_err(|error| PathError::Sample { row: k + 1, error })?;
+    }
+    let modes = robot.working_modes();
+    if !modes.contains(&mode) {
+        let known = modes.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+        return Err(PathError::Mode { mode, robot: robot.name.clone(), known });
+    }
+    let legs = robot.leg_solutions(&poses[0]).map_err(|error| PathError::Sample { row: 1, error })?;
+    match legs.iter().position(|leg| leg.q.iter().all(Option::is_none)) {
+        Some(k) => Err(PathError::StartOutOfReach { leg: k + 1 }),
+        None => Ok(()),
+    }
+}
+
+/// The proved sign of det A at a pose inside the mode.
+fn sign_at(robot: &Robot, mode: WorkingMode, pose: &[f64]) -> Option<i8> {
+    [1, -1].into_iter().find(|&sign| Along::is_inside(robot, &Demand::class(mode, sign), [pose, pose], 1))
+}
+
+/// The first obstacle to a demand.
+fn first_obstacle(
+    robot: &Robot,
+    demand: &Demand,
+    curves: &[Curve],
+    effort: usize,
+    asked: Asked,
+) -> Option<Obstacle> {
+    curves.iter().enumerate().find_map(|(k, curve)| {
+        let (constraint, from, to, proved) = match along(robot, demand, curve, effort) {
+            Along::Inside | Along::Crossed { .. } => return None,
+            Along::Outside { constraint, from, to } => (constraint, from, to, true),
+            Along::Undecided { constraint, from, to } => (constraint, from, to, false),
+        };
+        let pose = curve.at(0.5 * (from + to))[..robot.dof()].to_vec();
+        Some(Obstacle { asked, segment: k + 1, t: (from, to), pose, constraint, proved })
+    })
+}
+
+fn is_limited(robot: &Robot) -> bool {
+    robot.legs.iter().any(|leg| !leg.limits.is_empty())
+}
+
+fn without_limits(robot: &Robot) -> Robot {
+    let mut unlimited = robot.clone();
+    unlimited.legs.iter_mut().for_each(|leg| leg.limits.clear());
+    unlimited
+}

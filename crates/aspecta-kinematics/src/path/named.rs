@@ -1,0 +1,38 @@
+//! Constraints as JSON names them, legs and limits counted from 1.
+
+use crate::modal::Constraint;
+use serde::{Serialize, Serializer};
+
+#[derive(Serialize)]
+#[serde(tag = "kind", rename_all = "lowercase")]
+enum Named {
+    #[serde(rename = "det A")]
+    Det,
+    Reach {
+        leg: usize,
+    },
+    Limit {
+        leg: usize,
+        limit: usize,
+    },
+}
+
+impl From<Constraint> for Named {
+    fn from(constraint: Constraint) -> Self {
+        match constraint {
+            Constraint::Det => Self::Det,
+            Constraint::Reach(leg) => Self::Reach { leg: leg + 1 },
+            Constraint::Limit(leg, limit) => Self::Limit { leg: leg + 1, limit: limit + 1 },
+        }
+    }
+}
+
+/// For `serialize_with`.
+pub fn constraint<S: Serializer>(constraint: &Constraint, serializer: S) -> Result<S::Ok, S::Error> {
+    Named::from(*constraint).serialize(serializer)
+}
+
+/// The same where there may be none.
+pub fn if_any<S: Serializer>(constraint: &Option<Constraint>, serializer: S) -> Result<S::Ok, S::Error> {
+    constraint.map(Named::from).serialize(serializer)
+}

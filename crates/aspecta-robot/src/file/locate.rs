@@ -1,0 +1,165 @@
+//! From a place in the text (a span of bytes) to line, column, key and value.
+
+use super::error::{FileError, Mistake, Problem, closest};
+use super::format::Kind;
+use crate::Platform;
+use std::ops::Range as Span;
+use toml::de::{DeTable, DeValue};
+
+/// A problem and the bytes of the text it is about.
+#[derive(Debug)]
+pub(super) struct Fault {
+    pub span: Span<usize>,
+    pub problem: Problem,
+}
+
+impl Fault {
+    pub fn new(span: &Span<usize>, problem: Problem) -> Self {
+        Self { span: span.clone(), problem }
+    }
+
+    /// What serde or the TOML parser says, in the words of robot files. Their messages name keys and values
+    /// in backquotes; the tests of the messages hold that to be so.
+    pub fn from_serde(error: &toml::de::Error, text: &str, tree: &DeTable<'_>) -> Self {
+        let message = error.message();
+        let span = error.span().unwrap_or(text.len()..text.len());
+        let mut quoted = message.split('`').skip(1).step_by(2).map(str::to_owned);
+        let problem = if message.starts_with("unknown field") || message.starts_with("unknown variant") {
+            let wrong = quoted.next().unwrap_or_default();
+            let mut known: Vec<_> = quoted.collect();
+            if let Some(taken) = keys_taken(tree, &span) {
+                known.retain(|key| key == "kind" || taken.contains(&key.as_str()));
+            }
+            let closest = closest(&wrong, known.iter().map(String::as_str));
+            match message.starts_with("unknown field") {
+                true => Problem::UnknownKey { closest, known },
+                false => Problem::UnknownName { closest, known },
+            }
+        } else if message.starts_with("missing field") {
+            let key = quoted.next().unwrap_or_default();
+            Problem::MissingKey { hint: hint(&key), key }
+        } else {
+            let reason = message.trim_start_matches("invalid type: ").trim_start_matches("invalid value: ");
+            Problem::WrongType(reason.replace("a sequence", "a list in brackets"))
+        };
+        Self { span, problem }
+    }
+
+    pub fn from_parser(error: &toml::de::Error, text: &str) -> Self {
+        let span = error.span().unwrap_or(text.len()..text.len());
+        let problem = match error.message() {
+            "duplicate key" => Problem::DuplicateKey(text.get(span.clone()).unwrap_or_default().to_owned()),
+            other => Problem::Syntax(other.to_owned()),
+        };
+        Self { span, problem }
+    }
+
+    /// The message for people.
+    pub fn locate(self, file: &str, text: &str, tree: Option<&DeTable<'_>>) -> FileError {
+        let start = self.span.start.min(text.len());
+        let line_start = text[..start].rfind('\n').map_or(0, |k| k + 1);
+        let source_line = text[line_start..].lines().next().unwrap_or_default();
+        let column = text[line_start..start].chars().count() + 1;
+        let marked = text.get(start..self.span.end).unwrap_or_default();
+        let (key, is_value) = tree.map(|t| key_at(t, &self.span)).unwrap_or_default();
+        let value = if is_value && !marked.contains('\n') { marked } else { "" };
+        let width = marked.lines().next().unwrap_or_default().chars().count().max(1);
+        Box::new(Mistake {
+            file: file.to_owned(),
+            line: text[..start].matches('\n').count() + 1,
+            column,
+            key,
+            value: value.to_owned(),
+            problem: self.problem,
+            source_line: source_line.to_owned(),
+            width,
+        })
+        .into()
+    }
+}
+
+/// What to write for a missing key.
+pub(super) fn hint(key: &str) -> &'static str {
+    match key {
+        "name" => "give the robot a short name, name = \"my-robot\"",
+        "platform" => {
+            "say what the platform can do, one of `plane-point`, `plane-body`, `translating-body`, `turning-body`, \
+             `free-body`"
+        }
+        "actuator" => "say what drives the leg, actuator = { kind = \"revolute\", … }",
+        "kind" => "one of `revolute`, `prismatic`, `strut`, `spherical`",
+        "anchor" => "give the point A of the base, anchor = […]",
+        "attachment" => "give the direction of the platform joint, attachment = […]",
+        "crank" => "give the length of the driven crank",
+        "rod" => "give the length of the rod",
+        "direction" => "give the direction of the rail, direction = […]",
+        "axis" => "give the direction of the axis, axis = […]",
+        "zero" => "say where the crank points at q = 0, zero = […]",
+        "within" => "give the cone's half-angle, within = { deg = … }",
+        "deg" => "give the range in the plane, { deg = [min, max] }",
+        _ => "give the angle of the link, { deg = … }",
+    }
+}
+
+/// The keys that the actuator with a key at `span` takes beside `kind`, if there is one and its kind is known.
+fn keys_taken(tree: &DeTable<'_>, span: &Span<usize>) -> Option<&'static [&'static str]> {
+    let word = |table: &DeTable<'_>, key: &str| Some(table.get(key)?.get_ref().as_str()?.to_owned());
+    let legs = tree.get("legs")?.get_ref().as_array()?;
+    let mut actuators = legs.iter().filter_map(|leg| leg.get_ref().get("actuator")?.get_ref().as_table());
+    let actuator = actuators.find(|table| table.keys().any(|key| key.span() == *span))?;
+    let name = word(actuator, "kind")?;
+    let kind = Kind::ALL.into_iter().find(|kind| kind.name() == name)?;
+    let platform = word(tree, "platform").unwrap_or_default();
+    let space = Platform::ALL.into_iter().find(|p| p.name() == platform).map_or(3, Platform::space);
+    Some(kind.keys(space))
+}
+
+/// The key at `span`, as in `legs[2].actuator.crank`, and whether `span` is that of its value (rather than
+/// of the key or of a table's header).
+fn key_at(tree: &DeTable<'_>, span: &Span<usize>) -> (String, bool) {
+    let mut best = Found { length: usize::MAX, key: String::new(), is_value: false };
+    search_table(tree, "", span, &mut best);
+    (best.key, best.is_value)
+}
+
+/// The shortest span met so far that holds the wanted one.
+struct Found {
+    length: usize,
+    key: String,
+    is_value: bool,
+}
+
+impl Found {
+    fn offer(&mut self, candidate: Span<usize>, span: &Span<usize>, key: &str, is_value: bool) {
+        // The file as a whole has an empty span: no key holds it, whichever comes first.
+        let holds = !span.is_empty() && candidate.start <= span.start && span.end <= candidate.end;
+        // On a tie the deeper one, which comes later, is meant.
+        if holds && candidate.len() <= self.length {
+            *self = Self { length: candidate.len(), key: key.to_owned(), is_value };
+        }
+    }
+}
+
+fn search_table(table: &DeTable<'_>, path: &str, span: &Span<usize>, best: &mut Found) {
+    for (name, value) in table {
+        let dot = if path.is_empty() { "" } else { "." };
+        let key = format!("{path}{dot}{}", name.get_ref());
+        best.offer(name.span(), span, &key, false);
+        search_value(value.get_ref(), value.span(), &key, span, best);
+    }
+}
+
+fn search_value(value: &DeValue<'_>, at: Span<usize>, key: &str, span: &Span<usize>, best: &mut Found) {
+    // The span of a [table] is its header, which is no value; that of { … } is one, but too long to repeat.
+    let is_value = !value.is_table() && key != "legs";
+    best.offer(at, span, key, is_value);
+    match value {
+        DeValue::Table(table) => search_table(table, key, span, best),
+        DeValue::Array(items) => {
+            for (k, item) in items.iter().enumerate() {
+                search_value(item.get_ref(), item.span(), &format!("{key}[{}]", k + 1), span, best);
+            }
+        }
+        _ => {}
+    }
+}

@@ -1,0 +1,135 @@
+//! A fully parallel robot as data: one platform, n legs, one actuator a leg (Definitions 1 and 2).
+//!
+//! Everything the crate knows of a robot is its n leg equations f_i(X, q_i) = 0. A leg is written in
+//! a frame of its own at its anchor A_i, in which every kind of leg has a short equation
+//! ([`crate::legs`]); the platform is the motion group that places the attachment points C_i.
+
+pub mod catalogue;
+pub mod chart;
+mod classes;
+mod file;
+mod frame;
+mod leg;
+pub mod legs;
+pub mod num;
+mod platform;
+mod slice;
+mod sound;
+mod window;
+pub mod work;
+mod working_mode;
+
+pub use classes::{AXES, ClassSet, MAX_BOXES, MODES};
+pub use file::{FileError, Mistake, Problem};
+pub use frame::{crank_frame, rail_frame};
+pub use leg::{Actuator, BASE_FRAME, Frame, Leg, Limit, point};
+pub use platform::{Coordinate, Platform};
+pub use slice::SliceError;
+pub use sound::{Unsound, holds, sane, usable, wanted};
+pub use window::{Unbounded, Window};
+pub use working_mode::{NotAMode, WorkingMode};
+
+use serde::{Deserialize, Serialize};
+
+/// Numbers beyond this are not those of a robot.
+pub const GREATEST: f64 = 1e7;
+
+/// A robot, ready to compute with. Made from a robot file or by [`Robot::new`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Robot {
+    /// Short name, as in the catalogue.
+    pub name: String,
+    /// One line for people.
+    pub title: String,
+    /// Where the figures come from.
+    pub source: String,
+    /// The unit of all lengths, for people (`mm`, `m`, …); the arithmetic does not use it.
+    pub length_unit: String,
+    /// The motion group of the moving platform.
+    pub platform: Platform,
+    /// One leg per degree of freedom.
+    pub legs: Vec<Leg>,
+    /// Bounds the user sets on pose coordinates: `window[k]` for coordinate k, `None` where free.
+    pub window: Vec<Option<(f64, f64)>>,
+}
+
+/// Why legs and a platform do not make a robot.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RobotError {
+    /// n legs for n degrees of freedom.
+    #[error("platform `{platform}` has {wanted} degrees of freedom and needs {wanted} legs, not {found}")]
+    LegCount {
+        /// The platform.
+        platform: Platform,
+        /// Legs it needs.
+        wanted: usize,
+        /// Legs given.
+        found: usize,
+    },
+    /// The leg kind does not go with the platform.
+    #[error("leg {leg}: a {actuator} leg cannot drive a `{platform}` platform: {hint}")]
+    Mismatch {
+        /// Leg number, from 1.
+        leg: usize,
+        /// Kind of actuator.
+        actuator: &'static str,
+        /// The platform.
+        platform: Platform,
+        /// What would go.
+        hint: &'static str,
+    },
+}
+
+impl Robot {
+    /// A robot without window, title, source or unit.
+    ///
+    /// # Errors
+    /// [`RobotError`] if there is not one leg per degree of freedom, or if spherical legs and
+    /// point-to-point legs are mixed up with the wrong platform.
+    pub fn new(name: &str, platform: Platform, legs: Vec<Leg>) -> Result<Self, RobotError> {
+        let kinds: Vec<_> = legs.iter().map(|leg| leg.actuator.kind()).collect();
+        check_legs(platform, &kinds)?;
+        Ok(Self {
+            name: name.into(),
+            title: String::new(),
+            source: String::new(),
+            length_unit: "unit".into(),
+            platform,
+            window: vec![None; platform.dof()],
+            legs,
+        })
+    }
+
+    /// Degrees of freedom n: the number of legs, of pose coordinates and of joint coordinates.
+    pub fn dof(&self) -> usize {
+        self.platform.dof()
+    }
+
+    /// A length that is typical of the robot (its unit): the longest reach of a leg. Used to make
+    /// rotations and translations comparable in condition numbers, never in a proof.
+    pub fn characteristic_length(&self) -> f64 {
+        let arm = |l: &Leg| l.attachment.iter().map(|c| c.mid().powi(2)).sum::<f64>().sqrt();
+        let arms = self.legs.iter().map(arm).fold(0.0, f64::max);
+        if arms > 0.0 { arms } else { self.legs.iter().map(|l| l.actuator.size()).fold(0.0, f64::max) }
+    }
+}
+
+/// Whether legs of these kinds and the platform make a robot: one leg per degree of freedom, spherical legs for
+/// the turning body only.
+fn check_legs(platform: Platform, kinds: &[&'static str]) -> Result<(), RobotError> {
+    let wanted = platform.dof();
+    if kinds.len() != wanted {
+        return Err(RobotError::LegCount { platform, wanted, found: kinds.len() });
+    }
+    let fits = |kind: &str| (kind == "spherical") == (platform == Platform::TurningBody);
+    match kinds.iter().position(|kind| !fits(kind)) {
+        None => Ok(()),
+        Some(k) => Err(RobotError::Mismatch {
+            leg: k + 1,
+            actuator: kinds[k],
+            platform,
+            hint: "`spherical` legs and the `turning-body` platform go together, and with nothing else",
+        }),
+    }
+}

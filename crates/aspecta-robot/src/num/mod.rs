@@ -1,0 +1,151 @@
+//! The scalars every formula of the crate is generic over.
+//!
+//! The kinematics are written once, for any [`Scalar`]:
+//!
+//! | scalar | what a formula yields |
+//! |---|---|
+//! | `f64` | a number, to rounding: *numerical* |
+//! | [`Interval`] | bounds that hold the exact value: *certified* |
+//! | [`Ball`] | the same as midpoint and radius, faster where ranges are narrow |
+//! | [`Pack`] | eight intervals at once, for eight sibling boxes of a paving |
+//! | [`Slope`] over either | range, centre and slopes: the centred form, second-order tight |
+//! | [`Jet`] | the value and its gradient (forward mode) |
+
+mod ball;
+mod disc;
+mod exact;
+mod interval;
+mod jet;
+mod pack;
+mod random;
+mod slope;
+mod trig;
+mod written;
+
+pub use ball::Ball;
+pub use disc::Disc;
+pub use interval::Interval;
+pub use jet::Jet;
+pub use pack::{LANES, Mask, Pack};
+pub use random::Random;
+pub use slope::{Enclosure, Slope};
+pub use written::{count, written};
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A number, an enclosure of numbers, or either with its gradient.
+///
+/// Every operation on an enclosing scalar returns an enclosure of all results over all operands
+/// (the inclusion property), so a formula evaluated on enclosures encloses its exact range.
+pub trait Scalar:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
+{
+    /// The constant `c`; a plain `f64` takes its midpoint.
+    fn constant(c: Interval) -> Self;
+
+    /// `self²`, tighter than `self * self` on enclosures.
+    fn square(self) -> Self;
+
+    /// √max(self, 0): the part of an enclosure below zero is cut off. Callers test the sign first.
+    fn sqrt(self) -> Self;
+
+    /// (sin, cos) of an angle in radians.
+    fn sin_cos(self) -> (Self, Self);
+
+    /// The same number, enclosed as tightly as its own slopes allow; nothing to do for other scalars.
+    #[inline(always)]
+    fn tightened(self) -> Self {
+        self
+    }
+
+    /// The constant zero.
+    #[inline(always)]
+    fn zero() -> Self {
+        Self::constant(Interval::point(0.0))
+    }
+
+    /// `c · self`. Robots are full of zeros and ones (anchors at the origin, axis-aligned frames):
+    /// both cost nothing.
+    #[inline(always)]
+    fn scale(self, c: Interval) -> Self {
+        if c == Interval::point(1.0) { self } else { self * Self::constant(c) }
+    }
+}
+
+impl Scalar for f64 {
+    #[inline(always)]
+    fn constant(c: Interval) -> Self {
+        c.mid()
+    }
+    #[inline(always)]
+    fn square(self) -> Self {
+        self * self
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        f64::sqrt(self.max(0.0))
+    }
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        f64::sin_cos(self)
+    }
+}
+
+/// `each!(|k| e)`: the array [e(0), e(1), …], as long as its place wants it.
+///
+/// For the kernels. `std::array::from_fn` does the same, but the calls of its closure are not reliably
+/// inlined, and packs that pass through memory cost several times what they compute (`docs/performance.md`).
+#[macro_export]
+macro_rules! each {
+    (|$k:ident| $entry:expr) => {{
+        let mut array = [$crate::num::Scalar::zero(); _];
+        for $k in 0..array.len() {
+            array[$k] = $entry;
+        }
+        array
+    }};
+}
+pub use each;
+
+/// Σ aₖ bₖ.
+#[inline]
+pub fn dot<T: Scalar, const D: usize>(a: &[T; D], b: &[T; D]) -> T {
+    let mut sum = a[0] * b[0];
+    for k in 1..D {
+        sum = sum + a[k] * b[k];
+    }
+    sum
+}
+
+/// a × b.
+pub fn cross<T: Scalar>(a: &[T; 3], b: &[T; 3]) -> [T; 3] {
+    let minor = |i: usize, j: usize| a[i] * b[j] - a[j] * b[i];
+    [minor(1, 2), minor(2, 0), minor(0, 1)]
+}
+
+/// Σ cₖ aₖ with constant cₖ: exact zeros cost nothing.
+#[inline]
+pub fn dot_constant<T: Scalar, const D: usize>(c: &[Interval], a: &[T; D]) -> T {
+    let mut sum: Option<T> = None;
+    for k in 0..D {
+        if c[k] == Interval::point(0.0) {
+            continue;
+        }
+        let term = a[k].scale(c[k]);
+        sum = Some(match sum {
+            Some(s) => s + term,
+            None => term,
+        });
+    }
+    sum.unwrap_or_else(T::zero)
+}
+
+/// Numbers, and zeros after them; those that do not fit are left out.
+pub fn padded<const K: usize>(values: &[f64]) -> [f64; K] {
+    std::array::from_fn(|k| values.get(k).copied().unwrap_or(0.0))
+}
+
+/// An angle without its full turns: in [−π, π].
+pub fn without_turns(angle: f64) -> f64 {
+    angle - std::f64::consts::TAU * (angle / std::f64::consts::TAU).round()
+}

@@ -1,0 +1,208 @@
+//! The part of the pose space that holds the whole workspace.
+
+use super::{Actuator, Leg, Platform, Robot};
+use crate::num::Interval;
+use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
+
+/// A box of poses that holds every pose the robot can take, as proved from its link lengths, cut by
+/// the window the user may have set.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Window {
+    /// Range of each coordinate; (−π, π) rounded outward for a full turn, (v, v) for a coordinate held at v.
+    pub ranges: Vec<(f64, f64)>,
+    /// Which coordinates close up on themselves (a full turn).
+    pub glued: Vec<bool>,
+    /// Which coordinates are angles (rad).
+    pub angles: Vec<bool>,
+    /// Which ends of each range the user's window cuts: the workspace may go on beyond them.
+    pub cut: Vec<(bool, bool)>,
+}
+
+/// A coordinate that nothing bounds.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "robot `{robot}`: nothing bounds the coordinate `{coordinate}`; give limits to the actuators of the \
+     prismatic legs or struts, or a range for `{coordinate}` in the [window] table"
+)]
+pub struct Unbounded {
+    /// The robot's name.
+    pub robot: String,
+    /// The coordinate.
+    pub coordinate: &'static str,
+}
+
+impl Robot {
+    /// A box that holds the workspace W.
+    ///
+    /// A leg keeps C within a ball about each place its actuator can put the rod's end (crank + rod
+    /// about the anchor, the rod about the slider's segment, the longest strut), and the platform's
+    /// origin within ‖c_i‖ more; the box is the common part over the legs.
+    ///
+    /// # Errors
+    /// [`Unbounded`] if some coordinate has no bound.
+    pub fn workspace_window(&self) -> Result<Window, Unbounded> {
+        let mut window = Window::default();
+        for k in 0..self.dof() {
+            window.push(self, k);
+            window.check_bounded(self, k)?;
+        }
+        Ok(window)
+    }
+
+    /// The extent of coordinate `k`, infinite where nothing bounds it.
+    fn extent(&self, k: usize) -> Extent {
+        let c = self.platform.coordinates()[k];
+        let natural = if c.angle { angle_range(c.periodic) } else { self.length_reach(k) };
+        // A range of a full turn is no limit.
+        let asked = self.window[k].filter(|r| !(c.periodic && r.1 - r.0 >= TAU - 1e-12));
+        let range = match asked {
+            Some((lo, hi)) if !c.periodic => (natural.0.max(lo), natural.1.min(hi)),
+            Some(range) => range,
+            None => natural,
+        };
+        let cuts = |inside: bool| asked.is_some() && (c.periodic || inside);
+        Extent {
+            range,
+            glued: c.periodic && asked.is_none(),
+            // The natural ends of a pitch fold back into the range; those of a full turn are one.
+            cut: (cuts(range.0 > natural.0), cuts(range.1 < natural.1)),
+        }
+    }
+
+    /// Bounds of translation `k` from all legs.
+    fn length_reach(&self, k: usize) -> (f64, f64) {
+        let all = Interval::ENTIRE;
+        let range = self.legs.iter().fold(all, |r, leg| {
+            let (lo, hi) = leg.reach(k, self.platform);
+            Interval { lo: r.lo.max(lo), hi: r.hi.min(hi) }
+        });
+        (range.lo, range.hi)
+    }
+}
+
+/// How far one coordinate goes: see [`Window`].
+struct Extent {
+    range: (f64, f64),
+    glued: bool,
+    cut: (bool, bool),
+}
+
+impl Window {
+    /// Appends coordinate `k`, which may have an infinite or an empty range.
+    pub(super) fn push(&mut self, robot: &Robot, k: usize) {
+        let Extent { range, glued, cut } = robot.extent(k);
+        self.ranges.push(range);
+        self.glued.push(glued);
+        self.cut.push(cut);
+        self.angles.push(robot.platform.coordinates()[k].angle);
+    }
+
+    /// [`Unbounded`] if the range of coordinate `k` is infinite.
+    pub(super) fn check_bounded(&self, robot: &Robot, k: usize) -> Result<(), Unbounded> {
+        let (lo, hi) = self.ranges[k];
+        let unbounded =
+            || Unbounded { robot: robot.name.clone(), coordinate: robot.platform.coordinates()[k].name };
+        if lo.is_finite() && hi.is_finite() { Ok(()) } else { Err(unbounded()) }
+    }
+
+    /// The coordinates that are held at a value, and the values (see [`Robot::slice`]).
+    pub fn held(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        self.ranges.iter().enumerate().filter(|(_, r)| r.0 == r.1).map(|(k, r)| (k, r.0))
+    }
+
+    /// Whether a pose lies in it. It is convex, but for coordinates that are glued, along which it has no ends.
+    pub fn holds(&self, pose: &[f64]) -> bool {
+        pose.iter().enumerate().all(|(k, &x)| self.fraction(k, x).is_some())
+    }
+
+    /// The coordinates that vary.
+    pub fn axes(&self) -> Vec<usize> {
+        (0..self.ranges.len()).filter(|&k| self.ranges[k].0 < self.ranges[k].1).collect()
+    }
+
+    /// Line `index` of 2^depth equal parts of coordinate k. The same line has the same double at every depth, so
+    /// cells of all depths fit without gaps.
+    pub fn grid_line(&self, k: usize, index: u32, depth: u32) -> f64 {
+        let (lo, hi) = self.ranges[k];
+        if index == 1 << depth {
+            return hi;
+        }
+        let part = f64::from(index) / (1u64 << depth) as f64;
+        lo + (hi - lo) * part
+    }
+
+    /// Where in the range of coordinate k the value lies, in [0, 1]; `None` if outside. A coordinate that is held has
+    /// one value, whose place is 0.
+    pub fn fraction(&self, k: usize, x: f64) -> Option<f64> {
+        let (lo, hi) = self.ranges[k];
+        if lo == hi {
+            return (x == lo).then_some(0.0);
+        }
+        let x = if self.glued[k] { lo + (x - lo).rem_euclid(std::f64::consts::TAU) } else { x };
+        (lo <= x && x <= hi).then(|| (x - lo) / (hi - lo))
+    }
+
+    /// A pose with each angle turned into the window: [`Window::turned_in`].
+    pub fn turned(&self, pose: &[f64]) -> Vec<f64> {
+        pose.iter().enumerate().map(|(k, &x)| self.turned_in(k, x)).collect()
+    }
+
+    /// `x`, or, if coordinate k is an angle that lies in the window but for full turns, the angle in the window. A
+    /// held angle is met if x is a full turn away from it up to the rounding of either.
+    pub fn turned_in(&self, k: usize, x: f64) -> f64 {
+        let (lo, hi) = self.ranges[k];
+        if !self.angles[k] || (lo..=hi).contains(&x) {
+            return x;
+        }
+        if lo == hi {
+            let turns = ((x - lo) / TAU).round();
+            let rounding = 4.0 * f64::EPSILON * x.abs().max(lo.abs());
+            return if turns != 0.0 && (x - lo - turns * TAU).abs() <= rounding { lo } else { x };
+        }
+        let turned = lo + (x - lo).rem_euclid(TAU);
+        if turned <= hi { turned } else { x }
+    }
+}
+
+fn angle_range(full_turn: bool) -> (f64, f64) {
+    let half = if full_turn { Interval::PI } else { Interval::PI * Interval::point(0.5) };
+    (-half.hi, half.hi)
+}
+
+impl Leg {
+    /// Bounds of the platform's coordinate `k` that this leg alone proves.
+    fn reach(&self, k: usize, platform: Platform) -> (f64, f64) {
+        let (centre, radius) = match self.actuator {
+            Actuator::Revolute { crank, rod } => (self.anchor[k], crank + rod),
+            Actuator::Prismatic { rod } => {
+                let along = self.frame[0][k];
+                match self.length_range() {
+                    _ if along == Interval::point(0.0) => (self.anchor[k], rod),
+                    Some((min, max)) => (self.anchor[k] + min.hull(max) * along, rod),
+                    None => return (f64::NEG_INFINITY, f64::INFINITY),
+                }
+            }
+            Actuator::Strut => match self.length_range() {
+                Some((_, max)) => (self.anchor[k], max),
+                None => return (f64::NEG_INFINITY, f64::INFINITY),
+            },
+            Actuator::Spherical { .. } => return (f64::NEG_INFINITY, f64::INFINITY),
+        };
+        let offset = if turns(platform) { self.arm_about_origin() } else { self.attachment[k] };
+        let c = centre - offset;
+        ((c - radius).lo, (c + radius).hi)
+    }
+
+    /// [−‖c‖, ‖c‖]: any component of the attachment, however the platform is turned.
+    fn arm_about_origin(&self) -> Interval {
+        use crate::num::{Scalar, dot};
+        let arm = dot(&self.attachment, &self.attachment).sqrt().hi;
+        Interval::new(-arm, arm)
+    }
+}
+
+fn turns(platform: Platform) -> bool {
+    matches!(platform, Platform::PlaneBody | Platform::FreeBody)
+}

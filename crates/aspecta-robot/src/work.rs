@@ -1,0 +1,38 @@
+//! How a caller watches and stops long work.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// How far the work has come.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// What is being done.
+    pub stage: &'static str,
+    /// Steps done in this stage.
+    pub done: u64,
+    /// Steps this stage is known to need.
+    pub total: u64,
+}
+
+/// How a caller watches and stops long work.
+#[derive(Clone, Copy)]
+pub struct Control<'a> {
+    /// Set it to true to stop: the result so far is returned.
+    pub cancelled: &'a AtomicBool,
+    /// Called now and then, from any thread.
+    pub progress: &'a (dyn Fn(Progress) + Sync),
+}
+
+impl Control<'static> {
+    /// For work that no one watches: progress is not shown and nothing stops it.
+    pub fn unwatched() -> Self {
+        static NEVER: AtomicBool = AtomicBool::new(false);
+        Self { cancelled: &NEVER, progress: &|_| {} }
+    }
+}
+
+impl Control<'_> {
+    /// Whether the caller wants the work to stop.
+    pub fn is_cancelled(&self) -> bool {
+        self.cancelled.load(Ordering::Relaxed)
+    }
+}

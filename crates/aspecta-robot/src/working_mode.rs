@@ -1,0 +1,107 @@
+//! Working modes (Definition 7): the signs of B_jj, which name the inverse solutions.
+
+use crate::Robot;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::fmt;
+use std::str::FromStr;
+
+/// A vector of n signs, one per leg: sign(B_jj) = sign(∂f_j/∂q_j). Printed as `+-+`.
+///
+/// Modes are ordered as in Table 1: from `++…+`, each differing from the one before in one leg (Gray's code).
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct WorkingMode {
+    /// Bit j set: B_jj < 0.
+    negative: u8,
+    legs: u8,
+}
+
+impl WorkingMode {
+    /// The mode with the given signs (`true` is +), first leg first. At most 8 legs.
+    pub fn from_signs(signs: impl IntoIterator<Item = bool>) -> Self {
+        let mut mode = Self { negative: 0, legs: 0 };
+        for plus in signs.into_iter().take(8) {
+            mode.negative |= u8::from(!plus) << mode.legs;
+            mode.legs += 1;
+        }
+        mode
+    }
+
+    /// +1 or −1, the sign of B_jj for leg `j` (from 0).
+    pub fn sign(self, j: usize) -> i8 {
+        if self.negative >> j & 1 == 1 { -1 } else { 1 }
+    }
+
+    /// Every leg in its other posture.
+    pub fn opposite(self) -> Self {
+        Self::from_signs(self.signs().map(|sign| sign < 0))
+    }
+
+    /// Leg `j` (from 0) in its other posture.
+    pub fn with_other_posture(self, j: usize) -> Self {
+        Self { negative: self.negative ^ 1 << j, ..self }
+    }
+
+    /// Number of legs.
+    pub fn legs(self) -> usize {
+        self.legs.into()
+    }
+
+    /// The signs as ±1, first leg first.
+    pub fn signs(self) -> impl Iterator<Item = i8> {
+        (0..self.legs()).map(move |j| self.sign(j))
+    }
+}
+
+impl Robot {
+    /// All working modes in the order of Table 1 (`++`, `+-`, `--`, `-+`): each differs from the one before in one leg. A leg with one inverse solution (a
+    /// strut, B = −2q < 0) contributes one sign.
+    pub fn working_modes(&self) -> Vec<WorkingMode> {
+        let n = self.dof();
+        (0..1usize << n)
+            .map(|k| k ^ k >> 1)
+            .map(|bits| WorkingMode::from_signs((0..n).map(|j| bits >> (n - 1 - j) & 1 == 0)))
+            .filter(|m| (0..n).all(|j| self.legs[j].actuator.postures() == 2 || m.sign(j) < 0))
+            .collect()
+    }
+}
+
+impl fmt::Display for WorkingMode {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let signs: String = self.signs().map(|s| if s > 0 { '+' } else { '-' }).collect();
+        f.pad(&signs)
+    }
+}
+
+impl fmt::Debug for WorkingMode {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "WorkingMode({self})")
+    }
+}
+
+/// A text that is not a string of `+` and `-`.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("`{0}` is not a working mode: write one sign per leg, such as `+-+`")]
+pub struct NotAMode(pub String);
+
+impl FromStr for WorkingMode {
+    type Err = NotAMode;
+    fn from_str(s: &str) -> Result<Self, NotAMode> {
+        let well_formed = !s.is_empty() && s.len() <= 8 && s.chars().all(|c| c == '+' || c == '-');
+        if !well_formed {
+            return Err(NotAMode(s.into()));
+        }
+        Ok(Self::from_signs(s.chars().map(|c| c == '+')))
+    }
+}
+
+impl Serialize for WorkingMode {
+    fn serialize<S: Serializer>(&self, s: S) -> Result<S::Ok, S::Error> {
+        s.collect_str(self)
+    }
+}
+
+impl<'de> Deserialize<'de> for WorkingMode {
+    fn deserialize<D: Deserializer<'de>>(d: D) -> Result<Self, D::Error> {
+        String::deserialize(d)?.parse().map_err(serde::de::Error::custom)
+    }
+}

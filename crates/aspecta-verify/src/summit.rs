@@ -1,0 +1,316 @@
+//! The proof that P has no maximum in a box: tangent vectors along which all grows that can be the least.
+
+use super::body::MOST;
+use super::curvature::has_no_maximum;
+use super::direction::climbable;
+use super::in_mode::{Existence, InMode};
+use super::place::{ANY, Heights, ONE, OWN, Posture, ZERO, halves};
+use aspecta_robot::AXES;
+use aspecta_robot::num::{Interval, Scalar, cross};
+
+/// A vector along the axes.
+type Direction = [Interval; AXES];
+
+/// A velocity, or the derivatives of a function: along the axes, then by each leg's q.
+type Vector = [Interval; AXES + MOST];
+
+/// One of the functions whose least is P.
+struct Constraint {
+    value: Interval,
+    gradient: Vector,
+    /// The leg whose h_j it is.
+    height_of: Option<usize>,
+}
+
+/// A tangent vector of the configurations.
+struct Velocity {
+    vector: Vector,
+    /// The legs, as bits, whose h_j it does not change.
+    level: u8,
+}
+
+impl Velocity {
+    /// The derivative of a constraint along it.
+    fn growth(&self, constraint: &Constraint) -> Interval {
+        match constraint.height_of {
+            Some(j) if self.level >> j & 1 == 1 => ZERO,
+            _ => dot(&constraint.gradient, &self.vector),
+        }
+    }
+}
+
+/// What tangent vectors hold of legs that may be near a serial singularity.
+#[derive(Clone, Copy, PartialEq)]
+enum Held {
+    /// q_j.
+    Joint,
+    /// h_j.
+    Height,
+}
+
+/// Most parts into which ranges of h_j are cut.
+const PARTS: usize = 200;
+
+/// The share of each of these ranges below which a part is cut no more: the box is too wide then.
+const SMALLEST: f64 = 1.0 / 256.0;
+
+impl<const D: usize> InMode<'_, '_, D> {
+    /// Whether P certainly has no maximum in the box, in the class of the mode and the sign of det A (module documentation).
+    ///
+    /// Near a serial singularity h_j varies like the root of the box's width, however small the box: other directions may lead uphill for
+    /// other h_j, so their ranges are cut too.
+    pub(super) fn is_summitless(&self, sign: f64) -> bool {
+        if self.climbs(sign) {
+            return true;
+        }
+        let Some(whole) = self.heights_near_zero() else { return false };
+        let share = |heights: &Heights, j: usize| match whole[j] {
+            whole if whole == ANY || whole.width() == 0.0 => 0.0,
+            whole => heights[j].width() / whole.width(),
+        };
+        let cut = |heights: &Heights| halves(heights, |j| share(heights, j));
+        let mut open = cut(&whole).to_vec();
+        for _ in 0..PARTS {
+            let Some(heights) = open.pop() else { return true };
+            let may_be_high = |part: Self| part.existence() != Existence::Nowhere && !part.climbs(sign);
+            if self.part(&heights).is_some_and(may_be_high) {
+                if (0..MOST).all(|j| share(&heights, j) <= SMALLEST) {
+                    return false;
+                }
+                open.extend(cut(&heights));
+            }
+        }
+        false
+    }
+
+    /// [`Self::is_summitless`], the h_j being what they are here.
+    fn climbs(&self, sign: f64) -> bool {
+        let constraints = self.constraints(sign);
+        let least = constraints.iter().fold(f64::INFINITY, |least, c| least.min(c.value.hi));
+        if least <= 0.0 {
+            return true;
+        }
+        let active: Vec<&Constraint> = constraints.iter().filter(|c| c.value.lo <= least).collect();
+        let climbs = |held: Held, loose: &[usize]| {
+            self.velocities(loose, held).is_some_and(|velocities| {
+                let growth = |c: &&Constraint| velocities.iter().map(|v| v.growth(c)).collect();
+                climbable(&active.iter().map(growth).collect::<Vec<_>>())
+            })
+        };
+        let climbs_with = |loose: Vec<usize>| {
+            climbs(Held::Height, &loose) || !loose.is_empty() && climbs(Held::Joint, &loose)
+        };
+        let det_alone = active.len() == 1 && constraints[0].value.lo <= least;
+        self.choices_of_loose().into_iter().any(climbs_with)
+            || det_alone && !self.is_loose() && self.det_has_no_maximum(sign)
+    }
+
+    fn det_has_no_maximum(&self, sign: f64) -> bool {
+        let over = std::array::from_fn(|j| self.legs.get(j).map_or(ZERO, |leg| leg.q));
+        let at_middle = std::array::from_fn(|j| self.legs.get(j).map_or(0.0, |leg| leg.middle.mid()));
+        let turned = &self.determinant().turned;
+        has_no_maximum::<D>(self.place.setting, &self.place.y, (&over, &at_middle), turned, sign)
+    }
+
+    /// The functions whose least is P, scaled, and gradients of increasing functions of them.
+    fn constraints(&self, sign: f64) -> Vec<Constraint> {
+        let setting = self.place.setting;
+        let scale = setting.scale;
+        let exact = Interval::point;
+        let det = self.determinant();
+        let mut gradient = joined(&det.along, &det.by_joint);
+        gradient.iter_mut().for_each(|g| *g = *g * exact(sign));
+        let mut all =
+            vec![Constraint { value: det.range * exact(sign) / exact(scale.det), gradient, height_of: None }];
+        for (j, posture) in self.legs.iter().enumerate() {
+            if setting.robot.legs[j].actuator.postures() == 2 {
+                // √H = |B| (|B|/2) grows as s B does where that is positive.
+                let s = exact(f64::from(self.mode.sign(j)));
+                let gradient = of_leg(j, &posture.over.slope.gradient.map(|g| g * s));
+                let value = (posture.reach / exact(scale.reach[j])).sqrt();
+                all.push(Constraint { value, gradient, height_of: Some(j) });
+            }
+            for (k, limit) in posture.over.limits.iter().enumerate() {
+                let value = posture.limits[k] / exact(scale.limits[j][k]);
+                all.push(Constraint { value, gradient: of_leg(j, &limit.gradient), height_of: None });
+            }
+        }
+        for (a, &k) in setting.axes.iter().enumerate() {
+            let (lo, hi) = setting.window.ranges[k];
+            let (y, cut) = (self.place.y[k], setting.window.cut[k]);
+            let width = exact(hi) - exact(lo);
+            for (cut, distance, sign) in [(cut.0, y - exact(lo), 1.0), (cut.1, exact(hi) - y, -1.0)] {
+                if cut {
+                    let mut gradient = [ZERO; AXES + MOST];
+                    gradient[a] = exact(sign);
+                    all.push(Constraint { value: distance / width, gradient, height_of: None });
+                }
+            }
+        }
+        all
+    }
+
+    /// Sets of legs for which velocities are chosen with care: those whose B_jj may vanish must be among them; it helps if those are
+    /// whose H_j is small, because the gradients of det A and H_j are nearly parallel there.
+    fn choices_of_loose(&self) -> Vec<Vec<usize>> {
+        let setting = self.place.setting;
+        let among = |most: f64| -> Vec<usize> {
+            let is_small =
+                |j: usize| setting.has_root(j) && self.legs[j].reach.hi <= most * setting.scale.reach[j];
+            (0..self.legs.len()).filter(|&j| self.legs[j].loose || is_small(j)).collect()
+        };
+        let mut choices: Vec<Vec<usize>> = [0.0, 0.1, 0.3, 1.0].map(among).to_vec();
+        choices.dedup();
+        choices
+    }
+
+    /// As many tangent vectors of the configurations as there are axes. With n_j = ∂f_j/∂y they fulfil n_j·ẏ + B_jj q̇_j = 0 exactly at
+    /// every configuration of the box with B_jj ≠ 0. For the loose legs, either ẏ = −B_jj c and q̇_j = n_j·c, or one of two is held by exact
+    /// cross products:
+    ///
+    /// - q_j: n_j·ẏ = 0 and q̇_j = 0;
+    /// - h_j: ∇H_j·ẏ = 0. As B_jj² is H_j, up to a constant, it does not change, and ∂B_jj/∂y·ẏ + ∂B_jj/∂q_j q̇_j = 0 gives q̇_j. A strut has no H_j.
+    fn velocities(&self, loose: &[usize], held: Held) -> Option<Vec<Velocity>> {
+        let along_axes = |gradient: &[Interval]| -> Direction { std::array::from_fn(|a| gradient[a]) };
+        let normal = |j: usize| along_axes(&self.legs[j].over.equation.gradient);
+        let bend = |j: usize| self.legs[j].over.slope.gradient[OWN];
+        let holds_height = |j: usize| held == Held::Height && self.place.setting.has_root(j);
+        if loose.iter().any(|&j| holds_height(j) && bend(j).contains(0.0)) {
+            return None;
+        }
+        let across = |&j: &usize| if holds_height(j) { self.place.ascent[j] } else { normal(j) };
+        let normals: Vec<Direction> = loose.iter().map(across).collect();
+        let velocity = |(direction, own): (Direction, Option<usize>)| {
+            let own = own.map(|i| loose[i]);
+            let factor = own.map_or(ONE, |j| -self.legs[j].over.slope.value);
+            let along = direction.map(|x| x * factor);
+            let is_level = |j: usize| own != Some(j) && holds_height(j);
+            let joint = |(j, leg): (usize, &Posture)| match () {
+                () if own == Some(j) => dot(&normal(j), &direction),
+                () if !loose.contains(&j) => dot(&leg.rate, &along),
+                () if is_level(j) => -(dot(&along_axes(&leg.over.slope.gradient), &along) / bend(j)),
+                () => ZERO,
+            };
+            let mut joints = [ZERO; MOST];
+            let legs = self.legs.iter().map(|leg| &**leg);
+            joints.iter_mut().zip(legs.enumerate().map(joint)).for_each(|(place, q)| *place = q);
+            let level = loose.iter().filter(|j| is_level(**j)).fold(0, |level, j| level | 1 << j);
+            Velocity { vector: joined(&along, &joints), level }
+        };
+        Some(directions(self.place.setting.axes.len(), &normals)?.into_iter().map(velocity).collect())
+    }
+}
+
+fn joined(along: &Direction, by_joint: &[Interval; MOST]) -> Vector {
+    std::array::from_fn(|k| if k < AXES { along[k] } else { by_joint[k - AXES] })
+}
+
+/// The derivatives of a function of leg j alone.
+fn of_leg(j: usize, gradient: &[Interval; AXES + 1]) -> Vector {
+    let mut all = [ZERO; AXES + MOST];
+    all[..AXES].copy_from_slice(&gradient[..AXES]);
+    all[AXES + j] = gradient[OWN];
+    all
+}
+
+fn dot<const M: usize>(a: &[Interval; M], b: &[Interval; M]) -> Interval {
+    a.iter().zip(b).fold(ZERO, |sum, (a, b)| sum + *a * *b)
+}
+
+/// The middle of a vector, at length one.
+fn unit(v: &Direction) -> Direction {
+    let middle = v.map(Interval::mid);
+    let length = middle.iter().map(|x| x * x).sum::<f64>().sqrt();
+    middle.map(|x| Interval::point(if length.is_normal() { x / length } else { x }))
+}
+
+/// `count` directions: first those perpendicular to all the normals, then for each normal (its index given) one that is
+/// perpendicular to all the others. `None` if there are more normals than directions.
+fn directions(count: usize, normals: &[Direction]) -> Option<Vec<(Direction, Option<usize>)>> {
+    let axis = |a: usize| std::array::from_fn(|k| if k == a { ONE } else { ZERO });
+    // Perpendicular to a vector of the first two axes, in their plane.
+    let quarter = |v: &Direction| [-v[1], v[0], ZERO];
+    Some(match (count, normals) {
+        (_, []) => (0..count).map(|a| (axis(a), None)).collect(),
+        (1, [_]) => vec![(axis(0), Some(0))],
+        (2, [n]) => vec![(quarter(n), None), (unit(n), Some(0))],
+        (2, [n, m]) => vec![(quarter(m), Some(0)), (quarter(n), Some(1))],
+        (3, [n]) => {
+            let middle = unit(n);
+            let flattest = (0..3).min_by(|&a, &b| middle[a].magnitude().total_cmp(&middle[b].magnitude()))?;
+            let first = unit(&cross(&middle, &axis(flattest)));
+            let second = unit(&cross(&middle, &first));
+            vec![(cross(n, &first), None), (cross(n, &second), None), (middle, Some(0))]
+        }
+        (3, [n, m]) => {
+            let edge = unit(&cross(&unit(n), &unit(m)));
+            vec![(cross(n, m), None), (cross(m, &edge), Some(0)), (cross(n, &edge), Some(1))]
+        }
+        (3, [n, m, l]) => vec![(cross(m, l), Some(0)), (cross(l, n), Some(1)), (cross(n, m), Some(2))],
+        _ => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::certificate::Scale;
+    use crate::place::{Place, Setting};
+    use aspecta_robot::chart::Chart;
+    use aspecta_robot::num::Random;
+    use aspecta_robot::{Robot, catalogue};
+
+    /// The derivative of a function along a velocity is 0, as nearly as a box so small can tell.
+    #[track_caller]
+    fn assert_constant(gradient: &Vector, velocity: &Velocity) {
+        let change = dot(gradient, &velocity.vector);
+        let size = |v: &Vector| v.iter().map(|x| x.magnitude()).sum::<f64>();
+        let small = 1e-3 * size(gradient) * size(&velocity.vector);
+        assert!(change.contains(0.0) && change.magnitude() <= small, "{change:?}, above {small:e}");
+    }
+
+    /// At random configurations of a robot, whichever legs count as loose; returns how many velocities held some h_j.
+    fn look_at<const D: usize>(robot: &Robot) -> usize {
+        let (window, modes) = (robot.slice(&[]).unwrap(), robot.working_modes());
+        let scale = Scale::of(robot, &window, &modes);
+        let setting = Setting::new(robot, &Chart::Pose, window, &scale);
+        let (mut random, mut level) = (Random::new(5), 0);
+        for k in 0..400 {
+            let at = setting.window.ranges.iter().map(|&range| random.within(range)).collect::<Vec<_>>();
+            let y = std::array::from_fn(|k| at.get(k).map_or(ZERO, |&x| Interval::new(x - 1e-9, x + 1e-9)));
+            let place = Place::<D>::new(&setting, y);
+            let Some(robot) = place.in_mode(modes[k % modes.len()]) else { continue };
+            if robot.existence() != Existence::Everywhere {
+                continue;
+            }
+            for (held, set) in
+                [Held::Joint, Held::Height].into_iter().flat_map(|h| (0..8).map(move |s| (h, s)))
+            {
+                let loose: Vec<usize> = (0..robot.legs.len()).filter(|j| set >> j & 1 == 1).collect();
+                for velocity in robot.velocities(&loose, held).unwrap_or_default() {
+                    for (j, leg) in robot.legs.iter().enumerate() {
+                        assert_constant(&of_leg(j, &leg.over.equation.gradient), &velocity);
+                        if velocity.level >> j & 1 == 1 {
+                            assert_constant(&of_leg(j, &leg.over.slope.gradient), &velocity);
+                            level += 1;
+                        }
+                    }
+                }
+            }
+        }
+        level
+    }
+
+    #[test]
+    fn velocities_are_tangent_and_hold_what_they_say() {
+        for name in ["five-bar", "2-prr", "3-rrr", "3-prr", "3-rpr"] {
+            // Struts have no h_j.
+            assert_eq!(look_at::<2>(&catalogue::find(name).unwrap()) > 50, name != "3-rpr", "{name}");
+        }
+        for name in ["delta", "linear-delta", "orthoglide"] {
+            assert!(look_at::<3>(&catalogue::find(name).unwrap()) > 50, "{name}");
+        }
+        let sphere = include_str!("../../tests/fixtures/sphere.toml");
+        assert!(look_at::<3>(&Robot::from_toml(sphere, "sphere.toml").unwrap()) > 50);
+    }
+}

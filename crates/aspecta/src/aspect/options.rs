@@ -1,0 +1,20 @@
+//! How an analysis is done.
+
+use crate::paving::Budget;
+use aspecta_robot::WorkingMode;
+
+/// How an analysis is done.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Options {
+    /// How far the paving goes. Where nothing says when to stop: until the bounds meet, or [`crate::paving::MAX_BOXES`] boxes; 4 million
+    /// where [`Analysis::parallel_rods`], [`Analysis::uncharted_folds`] or [`Analysis::architecturally_singular`] keep the bounds apart.
+    pub budget: Budget,
+    /// Coordinates to hold (index, value), as in [`aspecta_robot::Robot::slice`]: what is analysed are the poses that have these values.
+    pub fix: Vec<(usize, f64)>,
+    /// The working modes to analyse, in this order; empty: all of the robot. With some only, the classes, bounds and numbers are
+    /// those of these modes, and Definitions 5 and 6 are left out, as they are for more modes than one pass takes
+    /// ([`crate::paving::MODES`]).
+    pub modes: Vec<WorkingMode>,
+    /// Whether to keep the proof: [`Analysis::certificate`]. For up to [`crate::paving::MODES`] working modes.
+    pub certificate: bool,
+}
