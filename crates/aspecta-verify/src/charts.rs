@@ -6,8 +6,8 @@ use super::place::{Coordinates, Place, Setting};
 use crate::certificate::Certificate;
 use aspecta_robot::chart::{Chain, Chart, Fold};
 use aspecta_robot::num::{Interval, Scalar, cross, dot};
+use aspecta_robot::work;
 use aspecta_robot::{Actuator, Platform, Robot, Window};
-use rayon::prelude::*;
 
 /// The window of a chart, given that of the poses.
 pub(super) fn window_of(chart: &Chart, poses: &Window) -> Window {
@@ -173,7 +173,7 @@ pub(super) fn partly_in<const D: usize>(base: &Sheet<'_>, chart: &Chart) -> Vec<
             && claims.inside | claims.undecided != 0
             && !Place::<D>::new(&base.setting, base.cells.of(leaf)).is_clear_of(chart)
     };
-    (0..base.cells.leaves.len()).into_par_iter().map(is_partly_in).collect()
+    work::map_range(base.cells.leaves.len(), is_partly_in)
 }
 
 /// The leaves of the base that a leaf of a later sheet may meet on the outer faces of its chart, of those that are `partly` in it. They have a class in

@@ -8,8 +8,8 @@ use crate::certificate::{Certificate, Claim, Leaf};
 use aspecta_robot::ClassSet;
 use aspecta_robot::chart::Chart;
 use aspecta_robot::num::{self, Interval};
+use aspecta_robot::work;
 use aspecta_robot::work::{Control, Progress};
-use rayon::prelude::*;
 use std::f64::consts::FRAC_PI_2;
 
 /// All leaves, numbered through the sheets, and which pairs touch.
@@ -43,7 +43,7 @@ pub(super) fn check<const D: usize>(
         (control.progress)(Progress { stage: "counting", done: class as u64, total: classes as u64 });
         Claim { low: leaves.low::<D>(class, charts), high: leaves.high(class, links) }
     };
-    let counted: Vec<Claim> = (0..classes).into_par_iter().map(count).collect();
+    let counted: Vec<Claim> = work::map_range(classes, count);
     for (class, (&proved, &claimed)) in counted.iter().zip(&certificate.claims).enumerate() {
         let (mode, det_a) = (certificate.modes[class / 2], if class % 2 == 0 { 1 } else { -1 });
         verdict.classes.push(Checked { mode, det_a, claimed, proved });
@@ -126,14 +126,14 @@ impl<'a> Leaves<'a> {
     /// Pairs of a leaf and what `others` gives for it, of leaves that are not outside all classes.
     fn pairs(&self, others: impl Fn(usize, usize) -> Vec<usize> + Sync) -> Vec<(u32, u32)> {
         let of_sheet = |s: usize| {
-            let others = &others;
             let (first, cells) = (self.first[s], &self.sheets[s].cells.leaves);
-            let matters = move |leaf: &usize| cells[*leaf].claims.inside | cells[*leaf].claims.undecided != 0;
-            (0..cells.len()).into_par_iter().filter(matters).flat_map_iter(move |leaf| {
-                others(s, leaf).into_iter().map(move |other| ((first + leaf) as u32, other as u32))
+            let matters = |leaf: usize| cells[leaf].claims.inside | cells[leaf].claims.undecided != 0;
+            work::flat_map_range(cells.len(), |leaf| {
+                let others = if matters(leaf) { others(s, leaf) } else { Vec::new() };
+                others.into_iter().map(move |other| ((first + leaf) as u32, other as u32))
             })
         };
-        (0..self.sheets.len()).into_par_iter().flat_map(of_sheet).collect()
+        (0..self.sheets.len()).flat_map(of_sheet).collect()
     }
 
     /// The leaves after this one in its sheet that touch it and have a class in common with it, numbered through the sheets.

@@ -63,10 +63,10 @@ pub use verdict::{Checked, Counts, Fault, Verdict};
 use crate::certificate::Certificate;
 use aspecta_robot::chart::Chart;
 use aspecta_robot::num::Interval;
+use aspecta_robot::work;
 use aspecta_robot::work::{Control, Progress};
 use cells::Cells;
 use place::{Coordinates, Setting};
-use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
 /// Leaves with faults after which no more are looked at.
@@ -199,7 +199,7 @@ fn check_leaves<const D: usize>(
                 }
             }
         };
-        let found: Vec<Fault> = (0..sheet.cells.leaves.len()).into_par_iter().filter_map(check).collect();
+        let found: Vec<Fault> = work::flat_map_range(sheet.cells.leaves.len(), check);
         verdict.faults.extend(found);
     }
     verdict.boxes = boxes.into_inner();

@@ -2,6 +2,7 @@
 
 mod common;
 
+use aspecta::Kinematics;
 use aspecta::aspect::{Cell, DetSign, ModeReport, Reachable};
 use aspecta::robot::Robot;
 use aspecta_view::figure::axes::Axis;

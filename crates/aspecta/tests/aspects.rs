@@ -1,6 +1,7 @@
 //! Generalized aspects: the paper's Table 2 under every change that must not matter, brute force in coordinates in which it
 //! can be trusted, limits, determinism.
 
+use aspecta::Kinematics;
 use aspecta::aspect::{Analysis, DetSign, Options, Place, Reachable, analyze};
 use aspecta::kinematics::WorkingMode;
 use aspecta::num::Interval;

@@ -4,6 +4,7 @@
 mod split_mix;
 mod sweep;
 
+use aspecta::Kinematics;
 use aspecta::aspect::{Analysis, AnalysisError, AspectClass, DetSign, Options, Place, Sample, analyze};
 use aspecta::certificate::Claim;
 use aspecta::paving::{Budget, Control, Stop};

@@ -1,5 +1,6 @@
 //! Slices of robots with six degrees of freedom: held against matrices written out by hand, dense sampling, and themselves.
 
+use aspecta::Kinematics;
 use aspecta::aspect::{Analysis, AnalysisError, Options, Place, analyze};
 use aspecta::kinematics::{Solution, WorkingMode};
 use aspecta::paving::{Budget, Control};

@@ -1,5 +1,6 @@
 //! Maps: where configurations lie, and the file that keeps it.
 
+use aspecta::Kinematics;
 use aspecta::aspect::{Analysis, Options, Place, analyze};
 use aspecta::domain::{DomainOptions, Map, MapError, MappedAspect, Nowhere, domains};
 use aspecta::paving::{Budget, Control};

@@ -1,12 +1,13 @@
 //! What a paving claims, held against configurations recomputed from scratch on random robots of every platform that
 //! can be paved.
 
+use aspecta::Kinematics;
 use aspecta::aspect::{Analysis, DetSign, Options, Place, analyze};
 use aspecta::kinematics::WorkingMode;
 use aspecta::kinematics::chart::Chart;
 use aspecta::kinematics::demand::Demand;
 use aspecta::kinematics::modal::Constraint;
-use aspecta::kinematics::path::{Along, Curve, along};
+use aspecta::kinematics::path::curve::{Along, Curve, along};
 use aspecta::num::Interval;
 use aspecta::paving::{Budget, Control, Mark, Node, Paving, Stop};
 use aspecta::robot::{Actuator, Leg, Limit, Platform, Robot, catalogue};

@@ -1,10 +1,10 @@
 //! Singularities (Definitions 3 and 4) against the geometry that defines them.
 
 use aspecta::kinematics::KinematicsError;
-use aspecta::kinematics::leg::equation;
 use aspecta::kinematics::placement::Placement;
 use aspecta::kinematics::{SINGULAR, Singularity, State};
 use aspecta::num::Interval;
+use aspecta::robot::legs::equation;
 use aspecta::robot::{Actuator, BASE_FRAME, Leg, Platform, Robot, point};
 use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};

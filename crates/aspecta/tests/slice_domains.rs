@@ -1,5 +1,6 @@
 //! Basic regions and characteristic surfaces on slices: held against those of the whole workspace, and against the direct model.
 
+use aspecta::Kinematics;
 use aspecta::aspect::{Analysis, DetSign, Options, analyze};
 use aspecta::domain::boundary::Face;
 use aspecta::domain::{DomainOptions, Domains, Mesh, domains, slice};

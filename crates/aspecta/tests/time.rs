@@ -4,6 +4,7 @@
 #[allow(dead_code)]
 mod random;
 
+use aspecta::Kinematics;
 use aspecta::motion::time::{JointLimits, Limited, Piece, TimeError, Trajectory, Waypoint, trajectory};
 use aspecta::motion::{Joined, PathOptions, check_poses};
 use aspecta::robot::catalogue;

@@ -8,6 +8,7 @@ use crate::output::{FORMAT_VERSION, Format, Labels, json, note, number};
 use crate::show::numbered::{self, IN_ONE, Numbered, list};
 use crate::show::{joined, motion};
 use crate::work::planning::{Planned, plan_over_roadmap};
+use aspecta::Kinematics;
 use aspecta::kinematics::{DirectSolutions, WorkingMode};
 use aspecta::motion::assembly::{
     AssemblyMode, AssemblyModes, CuspRound, Fold, assembly_modes, cusps_round, folds,

@@ -6,6 +6,7 @@ use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
 use crate::output::{Target, note};
 use crate::work::start;
+use aspecta::Kinematics;
 use aspecta::kinematics::Singularity;
 use aspecta_view::mjcf;
 use clap::{Args, Subcommand};

@@ -9,6 +9,7 @@ use crate::input::{self, Columns};
 use crate::output::{Align, Format, Labels, Table, det_a_unit, exact, json_of_each, note, number};
 use crate::show::solutions::signs;
 use crate::work::solve;
+use aspecta::Kinematics;
 use aspecta::kinematics::{self, WorkingMode};
 use aspecta::robot::Robot;
 use clap::Args;

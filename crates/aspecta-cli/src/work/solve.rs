@@ -3,6 +3,7 @@
 use crate::args::given::Query;
 use crate::failure::Failure;
 use crate::output::{note, number};
+use aspecta::Kinematics;
 use aspecta::kinematics::{DirectSolutions, Solution, WorkingMode};
 use aspecta::robot::Robot;
 

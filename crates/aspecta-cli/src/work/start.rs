@@ -2,6 +2,7 @@
 
 use super::solve;
 use crate::failure::Failure;
+use aspecta::Kinematics;
 use aspecta::kinematics::{Solution, WorkingMode};
 use aspecta::robot::Robot;
 

@@ -3,6 +3,7 @@
 use crate::failure::Failure;
 use crate::input::Columns;
 use crate::output::{Target, exact, number};
+use aspecta::Kinematics;
 use aspecta::motion::time::{JointLimits, Trajectory};
 use aspecta::robot::Robot;
 use aspecta_view::words::count;

@@ -16,8 +16,8 @@ fn certificate(low: usize) -> Certificate {
     let control = Control { cancelled: &AtomicBool::new(false), progress: &|_| {} };
     let budget = Budget { depth: Some(6), ..Budget::default() };
     let paving = Paving::new(&robot, &window, &modes, &budget, &control);
-    let scale = Scale::of(&robot, &window, &modes);
-    Certificate::new(&robot, &scale, &[paving], vec![], vec![], vec![Claim { low, high: None }; 8])
+    let scale = aspecta::aspect::scale(&robot, &window, &modes);
+    aspecta::aspect::certify(&robot, &scale, &[paving], vec![], vec![], vec![Claim { low, high: None }; 8])
 }
 
 fn file(directory: &TempDir, text: &str) -> PathBuf {

@@ -7,9 +7,9 @@ use crate::modal::closures;
 use crate::placement::Placement;
 use aspecta_robot::Window;
 use aspecta_robot::num::{Interval, Jet, Slope};
+use aspecta_robot::work;
 use aspecta_robot::work::{Control, Progress};
 use nalgebra::SMatrix;
-use rayon::prelude::*;
 
 /// A box of the chart's coordinates.
 pub(super) type Region<const N: usize> = [Interval; N];
@@ -85,7 +85,7 @@ impl<const D: usize, const N: usize> Search<'_, D, N> {
                     return all;
                 }
                 all.boxes += chunk.len() as u64;
-                let outcomes: Vec<_> = chunk.par_iter().map(|region| self.settle(*region)).collect();
+                let outcomes: Vec<_> = work::map(chunk, |region| self.settle(*region));
                 outcomes.into_iter().for_each(|outcome| all.add(outcome, &mut next));
                 let total = all.boxes + (level.len() + next.len()) as u64;
                 (control.progress)(Progress { stage: "searching for cusps", done: all.boxes, total });

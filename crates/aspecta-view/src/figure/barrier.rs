@@ -4,9 +4,9 @@
 //! beyond the reach of the legs, and a contour meets the boundary H = 0 without a gap.
 
 use aspecta::kinematics::WorkingMode;
-use aspecta::kinematics::leg::{drive, eliminate};
 use aspecta::kinematics::limits::{LegAt, margin};
 use aspecta::kinematics::placement::{Placement, determinant, out_of_frame, wrench};
+use aspecta::robot::legs::{drive, eliminate};
 use aspecta::robot::{Platform, Robot};
 
 /// What bounds an aspect.

@@ -3,6 +3,7 @@
 use crate::Case;
 use crate::common::{analysis, five_bar};
 use crate::maps::{areas, set};
+use aspecta::Kinematics;
 use aspecta::aspect::DetSign;
 use aspecta_view::figure::components::{JointSpace, Section};
 use aspecta_view::figure::joints::components;

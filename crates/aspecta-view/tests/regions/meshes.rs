@@ -1,6 +1,7 @@
 //! Meshes, as other readers of their formats see them.
 
 use crate::Case;
+use aspecta::Kinematics;
 use aspecta::kinematics::WorkingMode;
 use aspecta_view::mesh::{Surface, Surfaces, gltf, name, ply, vtk};
 use ply_rs_bw::parser::Parser;

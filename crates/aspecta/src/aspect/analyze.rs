@@ -19,11 +19,11 @@ use aspecta_kinematics::Kinematics;
 use aspecta_kinematics::chart::uncharted_folds;
 use aspecta_kinematics::parallel_rods::parallel_rods;
 use aspecta_kinematics::{WorkingMode, seems_architecturally_singular};
+use aspecta_robot::work;
+use aspecta_robot::work::Stopwatch;
 use aspecta_robot::{Actuator, Leg, Robot, Window};
 use aspecta_verify::certificate::Certificate;
-use rayon::prelude::*;
 use std::collections::BTreeSet;
-use std::time::Instant;
 
 /// Boxes after which a search ends by itself that cannot make the bounds meet.
 const HOPELESS_BOXES: u64 = 4_000_000;
@@ -60,15 +60,11 @@ fn with_deep_stacks<T: Send>(robot: &Robot, work: impl FnOnce() -> T + Send) -> 
     if robot.dof() <= 3 {
         return work();
     }
-    let threads = rayon::current_num_threads();
-    match rayon::ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK).build() {
-        Ok(pool) => pool.install(work),
-        Err(_) => work(),
-    }
+    work::with_stack(STACK, work)
 }
 
 fn analyze_here(robot: &Robot, options: &Options, control: &Control<'_>) -> Result<Analysis, AnalysisError> {
-    let start = Instant::now();
+    let start = Stopwatch::start();
     refuse(robot, options)?;
     let window = robot.slice(&options.fix)?;
     let all_modes = robot.working_modes();
@@ -84,14 +80,14 @@ fn analyze_here(robot: &Robot, options: &Options, control: &Control<'_>) -> Resu
     let mut passes: Vec<Pass> = Vec::new();
     let groups = modes.chunks(MODES);
     for (k, group) in groups.clone().enumerate() {
-        let spent = (passes.iter().map(|pass| pass.boxes).sum(), start.elapsed().as_secs_f64());
+        let spent = (passes.iter().map(|pass| pass.boxes).sum(), start.seconds());
         let share = budget.share(groups.len() - k, spent);
         passes.push(Pass::run(robot, &window, group, &share, options.certificate, control));
     }
     (control.progress)(Progress { stage: "definitions 5 and 6", done: 0, total: 1 });
     let (parallel, serial) = match &passes[..] {
         [pass] if options.modes.is_empty() => {
-            rayon::join(|| parallel_aspects(robot, &pass.paving), || serial_aspects(robot, &pass.paving))
+            work::join(|| parallel_aspects(robot, &pass.paving), || serial_aspects(robot, &pass.paving))
         }
         _ => Default::default(),
     };
@@ -130,7 +126,7 @@ fn analyze_here(robot: &Robot, options: &Options, control: &Control<'_>) -> Resu
         certificate,
         parallel_aspects: parallel,
         serial_aspects: serial,
-        run: Run { seconds: start.elapsed().as_secs_f64(), ..run },
+        run: Run { seconds: start.seconds(), ..run },
         robot: robot.clone(),
         window,
         labels,
@@ -160,7 +156,7 @@ impl Pass {
     ) -> Self {
         let Search { atlas, counted, stop } = Search::run(robot, window, modes, budget, control);
         let paving = &atlas.sheets[0];
-        let found = counted.par_iter().map(|(class, counted)| Found::new(&atlas, *class, counted)).collect();
+        let found = work::map(&counted, |(class, counted)| Found::new(&atlas, *class, counted));
         Self {
             found,
             doubts: counted.iter().flat_map(|(class, counted)| doubts(&atlas, *class, counted)).collect(),

@@ -13,8 +13,8 @@ use aspecta_kinematics::path::curve::Along;
 use aspecta_kinematics::{WorkingMode, for_platform};
 use aspecta_robot::Robot;
 use aspecta_robot::num::{Interval, Jet, Scalar};
+use aspecta_robot::work;
 use nalgebra::{DMatrix, SMatrix, SVector};
-use rayon::prelude::*;
 
 /// Most steps of a climb.
 const STEPS: usize = 60;
@@ -49,16 +49,13 @@ pub(super) fn merge(
     }
     let waits = |k: usize| largest[&pieces[k].component] == k;
     let climbers: Vec<usize> = (0..pieces.len()).filter(|&k| worth[k] && !waits(k)).collect();
-    let climbs: Vec<Climb> = climbers
-        .par_iter()
-        .map(|&k| {
-            if stop() {
-                return Climb::default();
-            }
-            let goal = largest[&pieces[k].component] as u32;
-            for_platform!(robot.platform, climb(robot, sheets, class, components, k as u32, goal))
-        })
-        .collect();
+    let climbs: Vec<Climb> = work::map(&climbers, |&k| {
+        if stop() {
+            return Climb::default();
+        }
+        let goal = largest[&pieces[k].component] as u32;
+        for_platform!(robot.platform, climb(robot, sheets, class, components, k as u32, goal))
+    });
     let mut sets = UnionFind::new(pieces.len());
     let mut joins = Vec::new();
     for (&k, climb) in climbers.iter().zip(climbs) {

@@ -9,10 +9,10 @@ use aspecta_kinematics::chart::{Chart, charts};
 use aspecta_kinematics::for_platform;
 use aspecta_robot::WorkingMode;
 use aspecta_robot::num::{Interval, Scalar};
+use aspecta_robot::work::Stopwatch;
 use aspecta_robot::{Robot, Window};
 use aspecta_verify::certificate::Scale;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
 
 /// A box: sheet and node.
 pub(super) type Leaf = (usize, u32);
@@ -24,7 +24,7 @@ pub(super) struct Limits<'a> {
     /// Greatest number of boxes.
     pub boxes: u64,
     /// When it began, and how many seconds it may take with all that follows.
-    pub time: Option<(Instant, f64)>,
+    pub time: Option<(Stopwatch, f64)>,
     /// How long, in seconds, each box takes in what follows: the last count and the report.
     pub rest: f64,
     /// Whether the time has kept anything from being done.
@@ -57,7 +57,7 @@ impl Limits<'_> {
     }
 
     fn has_less_than(&self, needed: f64) -> bool {
-        let late = |(start, seconds): (Instant, f64)| start.elapsed().as_secs_f64() + needed > seconds;
+        let late = |(start, seconds): (Stopwatch, f64)| start.seconds() + needed > seconds;
         let late = self.time.is_some_and(late);
         self.late.fetch_or(late, Ordering::Relaxed);
         late || self.control.is_cancelled()

@@ -9,7 +9,7 @@ use crate::paving::{ClassSet, Mark, Node, Paving};
 use aspecta_kinematics::Kinematics;
 use aspecta_robot::Robot;
 use aspecta_robot::WorkingMode;
-use rayon::prelude::*;
+use aspecta_robot::work;
 
 /// Definition 5: where det A > 0 in some working mode, and where it is < 0 in some.
 pub(super) fn parallel_aspects(robot: &Robot, paving: &Paving) -> Vec<EarlierAspects> {
@@ -17,17 +17,14 @@ pub(super) fn parallel_aspects(robot: &Robot, paving: &Paving) -> Vec<EarlierAsp
     let minus: ClassSet = 0xAAAA;
     let both = |node: &Node| intersection(node.of_classes(plus), node.of_classes(minus));
     let overlap = measure(paving, &both);
-    [("det A > 0", plus), ("det A < 0", minus)]
-        .into_par_iter()
-        .map(|(name, classes)| EarlierAspects {
-            name: name.into(),
-            domains: domains(robot, paving, &|node| node.of_classes(classes))
-                .iter()
-                .map(|d| d.report(robot, paving, |node| mode_in(paving, node, classes)))
-                .collect(),
-            overlap,
-        })
-        .collect()
+    work::map(&[("det A > 0", plus), ("det A < 0", minus)], |&(name, classes)| EarlierAspects {
+        name: name.into(),
+        domains: domains(robot, paving, &|node| node.of_classes(classes))
+            .iter()
+            .map(|d| d.report(robot, paving, |node| mode_in(paving, node, classes)))
+            .collect(),
+        overlap,
+    })
 }
 
 /// Definition 6: where each combination of signs of the B_jj exists.
@@ -36,15 +33,12 @@ pub(super) fn serial_aspects(robot: &Robot, paving: &Paving) -> Vec<EarlierAspec
     // Without limits every mode exists at the same poses.
     let unlimited = robot.legs.iter().all(|leg| leg.limits.is_empty());
     let different = if unlimited { 1 } else { count };
-    let found: Vec<(Vec<Domain>, f64)> = (0..different)
-        .into_par_iter()
-        .map(|m| {
-            let next = (m + 1) % count;
-            let shared = |node: &Node| intersection(node.of_mode(m), node.of_mode(next));
-            let overlap = if next == m { 0.0 } else { measure(paving, &shared) };
-            (domains(robot, paving, &|node| node.of_mode(m)), overlap)
-        })
-        .collect();
+    let found: Vec<(Vec<Domain>, f64)> = work::map_range(different, |m| {
+        let next = (m + 1) % count;
+        let shared = |node: &Node| intersection(node.of_mode(m), node.of_mode(next));
+        let overlap = if next == m { 0.0 } else { measure(paving, &shared) };
+        (domains(robot, paving, &|node| node.of_mode(m)), overlap)
+    });
     let entry = |(m, mode): (usize, &WorkingMode)| {
         let (domains, overlap) = &found[m % different];
         EarlierAspects {

@@ -39,3 +39,4 @@ pub use result::{
     Analysis, Aspect, AspectClass, Cell, Count, DetSign, Doubt, DoubtKind, EarlierAspects, EarlierDomain,
     FORMAT_VERSION, LegReport, ModeReport, Place, Reachable, Run, Sample,
 };
+pub use scale::scale;

@@ -13,7 +13,7 @@ use aspecta_verify::certificate::Scale;
 const SAMPLES: usize = 8;
 
 /// Mean magnitudes over a grid of poses.
-pub(super) fn scale(robot: &Robot, window: &Window, modes: &[WorkingMode]) -> Scale {
+pub fn scale(robot: &Robot, window: &Window, modes: &[WorkingMode]) -> Scale {
     for_platform!(robot.platform, sample(robot, window, modes))
 }
 

@@ -5,11 +5,11 @@ use super::atlas::{Atlas, Leaf, Limits};
 use super::count::{Counted, count};
 use crate::paving::{Budget, Control, MAX_BOXES, MAX_DEPTH, Progress, Stop};
 use aspecta_robot::WorkingMode;
+use aspecta_robot::work;
+use aspecta_robot::work::Stopwatch;
 use aspecta_robot::{Robot, Window};
-use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
 
 /// All classes, counted over one atlas.
 pub(super) struct Search<'a> {
@@ -29,12 +29,12 @@ impl<'a> Search<'a> {
         budget: &Budget,
         control: &Control<'_>,
     ) -> Self {
-        let start = Instant::now();
+        let start = Stopwatch::start();
         let mut limits = Limits {
             depth: budget.finest(window).unwrap_or(MAX_DEPTH),
             boxes: budget.boxes.unwrap_or(MAX_BOXES).min(MAX_BOXES),
             time: budget.seconds.map(|seconds| (start, seconds)),
-            rest: AFTER * modes.len() as f64 * PER_BOX / rayon::current_num_threads() as f64,
+            rest: AFTER * modes.len() as f64 * PER_BOX / work::thread_count() as f64,
             late: AtomicBool::new(false),
             control,
         };
@@ -43,9 +43,9 @@ impl<'a> Search<'a> {
         let mut search = Self { atlas, counted: Vec::new(), stop: paved };
         let leaves = search.atlas.undecided_leaves();
         let mut afforded = search.atlas.uncover(leaves, &limits);
-        let counting = Instant::now();
+        let counting = Stopwatch::start();
         search.count_all(modes, &limits);
-        limits.rest = limits.rest.max(AFTER * counting.elapsed().as_secs_f64() / search.atlas.boxes() as f64);
+        limits.rest = limits.rest.max(AFTER * counting.seconds() / search.atlas.boxes() as f64);
         afforded &= search.join(&limits);
         let even = search.atlas.even_out(budget.even(window), &limits);
         afforded &= even.reached;
@@ -68,7 +68,7 @@ impl<'a> Search<'a> {
         };
         let classes: Vec<Class> = modes.iter().enumerate().flat_map(signs).collect();
         let atlas = &self.atlas;
-        self.counted = classes.into_par_iter().map(|class| (class, count(atlas, class, limits))).collect();
+        self.counted = work::map(&classes, |&class| (class, count(atlas, class, limits)));
         self.remember(limits);
     }
 
@@ -83,7 +83,7 @@ impl<'a> Search<'a> {
                 }
             }
         };
-        self.counted.par_iter_mut().for_each(again);
+        work::update(&mut self.counted, again);
         self.remember(limits);
     }
 

@@ -34,11 +34,11 @@ use arrayvec::ArrayVec;
 use aspecta_robot::Robot;
 use aspecta_robot::WorkingMode;
 use aspecta_robot::num::{Interval, LANES, Mask, Pack};
+use aspecta_robot::work;
 use aspecta_verify::certificate::Scale;
 use climb::can_climb;
 use frame::Frame;
 use leg::LegPart;
-use rayon::prelude::*;
 use std::cell::LazyCell;
 use view::View;
 
@@ -78,7 +78,8 @@ fn by_eights<T: Send, const D: usize, const N: usize, const M: usize>(
         let view = View::new(robot, paving, scale, &eight(boxes));
         look(&Eight::new(&view, boxes))
     };
-    asked.par_chunks(LANES).flat_map_iter(of_eight).collect()
+    let packs: Vec<_> = asked.chunks(LANES).collect();
+    work::flat_map(&packs, |boxes| of_eight(boxes))
 }
 
 /// What a first look at a box finds.

@@ -11,7 +11,7 @@ use super::uniqueness::maximal_sets;
 use crate::aspect::Analysis;
 use crate::paving::Control;
 use aspecta_robot::num::Random;
-use rayon::prelude::*;
+use aspecta_robot::work;
 use std::collections::BTreeSet;
 
 /// Most nodes of a grid.
@@ -185,7 +185,7 @@ fn agreement(sheet: &Sheet<'_>, partition: &Partition, regions: &[Region], sampl
         });
         Some((pose.to_vec(), away))
     };
-    let all: Vec<_> = poses.par_iter().filter_map(looked_at).collect();
+    let all: Vec<_> = work::flat_map(&poses, looked_at);
     let mut agreement = Agreement { samples: all.len(), ..Agreement::default() };
     for (pose, (region, solutions)) in all.into_iter().filter_map(|(pose, away)| Some((pose, away?))) {
         agreement.away += 1;

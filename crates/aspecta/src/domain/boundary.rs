@@ -16,8 +16,8 @@ use super::field::Field;
 use crate::aspect::{Analysis, Aspect, DetSign, Place};
 use aspecta_kinematics::modal::Constraint;
 use aspecta_kinematics::{WorkingMode, for_platform};
+use aspecta_robot::work;
 use lattice::{Edge, Lattice, Tag};
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// How far from its faces, in widths of the window, a vertex may be and count as placed.
@@ -204,12 +204,11 @@ fn extract<const D: usize, const N: usize>(
     let mut edges: Vec<Edge> = cuts.iter().flatten().copied().collect();
     edges.sort_unstable();
     edges.dedup();
-    let mut vertices: Vec<BoundaryVertex> =
-        edges.par_iter().map(|&edge| vertex(&field, &lattice, edge)).collect();
+    let mut vertices: Vec<BoundaryVertex> = work::map(&edges, |&edge| vertex(&field, &lattice, edge));
     let index = |edge: &Edge| edges.binary_search(edge).unwrap_or_default() as u32;
     let unnamed = Face::Of(Constraint::Det);
     let mut simplices: Vec<Simplex> =
-        cuts.par_iter().map(|cut| Simplex { corners: cut.map(|e| index(&e)), face: unnamed }).collect();
+        work::map(&cuts, |cut| Simplex { corners: cut.map(|e| index(&e)), face: unnamed });
     let dimension = lattice.axes.len();
     let cell = lattice.diagonal(&field);
     corner::sharpen(&field, &mut vertices, &mut simplices, dimension, cell);

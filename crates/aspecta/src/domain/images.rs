@@ -2,7 +2,7 @@
 
 use super::labels::OUTSIDE;
 use super::partition::{Partition, Region};
-use rayon::prelude::*;
+use aspecta_robot::work;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Nodes a task looks at.
@@ -29,8 +29,8 @@ impl Partition {
             }
             a
         };
-        let chunks = (0..nodes.div_ceil(CHUNK)).into_par_iter();
-        let [sure, mut unsure] = chunks.fold(Default::default, look).reduce(Default::default, join);
+        let chunks = work::map_range(nodes.div_ceil(CHUNK), |chunk| look(Default::default(), chunk));
+        let [sure, mut unsure] = chunks.into_iter().fold(Default::default(), join);
         unsure.retain(|region, _| !sure.contains_key(region));
         Images { seen: sure.into_iter().chain(unsure).collect() }
     }

@@ -6,7 +6,7 @@ use super::sheet::{Match, Sheet};
 use crate::aspect::UnionFind;
 use crate::paving::{Control, Progress};
 use aspecta_robot::num::padded;
-use rayon::prelude::*;
+use aspecta_robot::work;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -92,7 +92,7 @@ impl Partition {
             (control.progress)(Progress { stage: "direct solutions", done, total: nodes as u64 });
             solved
         };
-        let solved: Vec<_> = (0..nodes.div_ceil(CHUNK)).into_par_iter().map(of_chunk).collect();
+        let solved: Vec<_> = work::map_range(nodes.div_ceil(CHUNK), of_chunk);
         let mut node = 0;
         for (counts, others, failed) in solved {
             let mut first = self.others.len() as u32;
@@ -120,7 +120,7 @@ impl Partition {
             let alike = next.filter(move |&next| !control.is_cancelled() && self.are_alike(node, next));
             alike.filter_map(move |next| Some((node, next, self.way(sheet, node, next, 0)?)))
         };
-        let pairs: Vec<_> = (0..self.labels.grid.len()).into_par_iter().flat_map_iter(joined).collect();
+        let pairs: Vec<_> = work::flat_map_range(self.labels.grid.len(), joined);
         for (node, next, way) in pairs {
             sets.union(node as u32, next as u32);
             let other =
@@ -195,7 +195,7 @@ impl Partition {
             });
             joined
         };
-        let joins: Vec<(usize, usize)> = nodes.par_iter().flat_map_iter(near).collect();
+        let joins: Vec<(usize, usize)> = work::flat_map(&nodes, near);
         joins.into_iter().for_each(|(a, b)| sets.union(a as u32, b as u32));
     }
 

@@ -13,7 +13,7 @@ use aspecta_kinematics::placement::Placement;
 use aspecta_kinematics::{WorkingMode, for_platform};
 use aspecta_robot::Robot;
 use aspecta_robot::num::Jet;
-use rayon::prelude::*;
+use aspecta_robot::work;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -61,7 +61,7 @@ pub fn crossings(analysis: &Analysis) -> Vec<Crossing> {
     let all: Vec<Side> =
         legs.flat_map(|leg| pairs(leg).map(move |classes| Side { analysis, leg, classes })).collect();
     let mut found: Vec<Crossing> =
-        all.par_iter().flat_map(|side| for_platform!(analysis.robot.platform, between(side))).collect();
+        work::flat_map(&all, |side| for_platform!(analysis.robot.platform, between(side)));
     found.sort_by_key(|crossing| (crossing.aspects, crossing.leg));
     found
 }

@@ -8,9 +8,9 @@ use super::{Control, MAX_BOXES, MODES, Progress};
 use aspecta_kinematics::chart::Chart;
 use aspecta_robot::WorkingMode;
 use aspecta_robot::num::LANES;
+use aspecta_robot::work;
+use aspecta_robot::work::Stopwatch;
 use aspecta_robot::{Robot, Window};
-use rayon::prelude::*;
-use std::time::Instant;
 
 /// Parents one task subdivides.
 const CHUNK: usize = 256;
@@ -52,10 +52,8 @@ impl Paving {
         control: &Control<'_>,
     ) -> Self {
         let mut paving = Self::blank(Chart::Pose, window.clone(), modes);
-        let deadline = budget.seconds.map(|s| (Instant::now(), s));
-        let late = || {
-            deadline.is_some_and(|(start, seconds)| start.elapsed().as_secs_f64() > PAVING_SHARE * seconds)
-        };
+        let deadline = budget.seconds.map(|s| (Stopwatch::start(), s));
+        let late = || deadline.is_some_and(|(start, seconds)| start.seconds() > PAVING_SHARE * seconds);
         let allowed = budget.boxes.unwrap_or(MAX_BOXES).min(MAX_BOXES);
         let depths = budget.even(window);
         let mut level = 0..1;
@@ -134,12 +132,12 @@ fn split_level<const D: usize, const N: usize, const M: usize>(
     stop: &(impl Fn() -> bool + Sync),
 ) -> bool {
     let classifier = Classifier::<D, N, M>::new(robot, paving, charts, depth, parents.len() << M);
-    let families: Vec<Option<Vec<Node>>> = parents
-        .par_chunks(CHUNK)
-        .map(|chunk| (!stop()).then(|| subdivide::<D, N, M>(&paving.nodes, chunk, &classifier)))
-        .collect();
+    let chunks: Vec<_> = parents.chunks(CHUNK).collect();
+    let families: Vec<Option<Vec<Node>>> = work::map(&chunks, |chunk| {
+        (!stop()).then(|| subdivide::<D, N, M>(&paving.nodes, chunk, &classifier))
+    });
     let mut all = true;
-    for (chunk, children) in parents.chunks(CHUNK).zip(families) {
+    for (chunk, children) in chunks.into_iter().zip(families) {
         let Some(children) = children else {
             all = false;
             continue;

@@ -4,9 +4,10 @@
 #[allow(dead_code)]
 mod split_mix;
 
+use aspecta::Kinematics;
 use aspecta::aspect::DetSign;
 use aspecta::kinematics::demand::{Demand, Margins};
-use aspecta::kinematics::path::{Along, Curve, along};
+use aspecta::kinematics::path::curve::{Along, Curve, along};
 use aspecta::kinematics::{DirectSolutions, Solution, WorkingMode};
 use aspecta::motion::explore::{Effort, End, ExploreError, NoWay, explore, join_solutions, plan};
 use aspecta::motion::plan::{Plan, PlanOptions, Refusal};

@@ -1,6 +1,7 @@
 //! From one assembly mode to another.
 
 use super::*;
+use aspecta::Kinematics;
 use aspecta::motion::assembly::{assembly_modes, cusps_round, folds};
 use aspecta::motion::plan::{PlanOptions, Planner, Refusal};
 

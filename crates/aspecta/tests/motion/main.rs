@@ -8,6 +8,7 @@ mod plan;
 mod random;
 mod traverse;
 
+use aspecta::Kinematics;
 use aspecta::aspect::{Analysis, Options, analyze};
 use aspecta::kinematics::WorkingMode;
 use aspecta::motion::check_path;

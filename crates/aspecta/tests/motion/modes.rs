@@ -1,6 +1,7 @@
 //! Through changes of working mode.
 
 use super::*;
+use aspecta::Kinematics;
 use aspecta::aspect::DetSign;
 use aspecta::kinematics::demand::Margins;
 use aspecta::motion::modes::{Configuration, ModeGraph, NoRoute};

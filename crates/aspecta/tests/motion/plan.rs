@@ -1,6 +1,7 @@
 //! Within a working mode.
 
 use super::*;
+use aspecta::Kinematics;
 use aspecta::kinematics::demand::Margins;
 use aspecta::motion::plan::{End, PlanOptions, Planner, Refusal};
 use aspecta::motion::{Joined, PathOptions, check_poses};

@@ -1,6 +1,7 @@
 //! Which aspects hold a set.
 
 use super::*;
+use aspecta::Kinematics;
 use aspecta::aspect::Place;
 use aspecta::motion::modes::ModeGraph;
 use aspecta::motion::traverse::{Holds, PoseSet, traversability};

@@ -1,6 +1,7 @@
 //! What a file without mistakes means.
 
 use super::*;
+use aspecta::Kinematics;
 use aspecta::num::Interval;
 use aspecta::robot::Limit;
 

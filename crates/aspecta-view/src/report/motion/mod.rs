@@ -12,6 +12,7 @@ use crate::figure::palette::INK;
 use crate::figure::profile::{Curve, Plot, along, curves, runs};
 use crate::figure::robot::signs;
 use crate::figure::shape::Shapes;
+use aspecta::Kinematics;
 use aspecta::aspect::{Analysis, DetSign};
 use aspecta::kinematics::WorkingMode;
 use aspecta::motion::{Obstacle, ProfilePoint};

@@ -2,7 +2,7 @@
 
 use super::{BoundaryVertex, Face, Simplex};
 use crate::domain::field::Field;
-use rayon::prelude::*;
+use aspecta_robot::work;
 use std::collections::HashMap;
 
 /// The edges of a mesh whose ends lie on different faces, in order.
@@ -24,7 +24,7 @@ pub fn sharpen<const D: usize, const N: usize>(
     cell: f64,
 ) {
     let mixed = mixed(vertices, simplices, dimension);
-    let corners: Vec<_> = mixed.par_iter().map(|&(u, v)| meeting(field, vertices, &[u, v], cell)).collect();
+    let corners: Vec<_> = work::map(&mixed, |&(u, v)| meeting(field, vertices, &[u, v], cell));
     let first = vertices.len() as u32;
     vertices.extend(corners);
     let on_edge: HashMap<(u32, u32), u32> = mixed.into_iter().zip(first..).collect();

@@ -6,7 +6,7 @@
 
 use crate::aspect::{Analysis, Aspect, Place};
 use crate::domain::field::Field;
-use rayon::prelude::*;
+use aspecta_robot::work;
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
 
@@ -143,7 +143,7 @@ impl Lattice {
                 },
             }
         };
-        self.tags = (0..self.tags.len()).into_par_iter().map(tag).collect();
+        self.tags = work::map_range(self.tags.len(), tag);
         self.flood();
         let cell = self.diagonal(field);
         let unknown: Vec<usize> =
@@ -201,7 +201,7 @@ impl Lattice {
         let orders = orders(self.axes.len());
         let of_cell =
             |node: usize| orders.iter().flat_map(move |order| self.cut(node, order)).collect::<Vec<_>>();
-        (0..self.tags.len()).into_par_iter().flat_map_iter(of_cell).collect()
+        work::flat_map_range(self.tags.len(), of_cell)
     }
 
     /// The cuts of one simplex of the cell after `node`: its corners are reached by stepping along the axes in `order`.

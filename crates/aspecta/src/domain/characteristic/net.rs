@@ -6,7 +6,7 @@ use crate::domain::boundary::{Boundary, BoundaryVertex, Face, Simplex, onto};
 use crate::domain::field::Field;
 use arrayvec::ArrayVec;
 use aspecta_kinematics::Kinematics;
-use rayon::prelude::*;
+use aspecta_robot::work;
 use std::collections::HashMap;
 
 /// Most direct solutions in one aspect, with room to spare: 6 in the plane, 2 in space.
@@ -82,7 +82,7 @@ impl<'a, const D: usize, const N: usize> Net<'a, D, N> {
     }
 
     fn extend(&mut self, vertices: Vec<BoundaryVertex>) {
-        let stations: Vec<_> = vertices.par_iter().map(|vertex| self.station(vertex)).collect();
+        let stations: Vec<_> = work::map(&vertices, |vertex| self.station(vertex));
         self.sources.extend(vertices);
         self.stations.extend(stations);
     }
@@ -127,7 +127,7 @@ impl<'a, const D: usize, const N: usize> Net<'a, D, N> {
         let mut edges: Vec<_> = simplices.iter().flat_map(|s| s.edges(self.dimension)).collect();
         edges.sort_unstable();
         edges.dedup();
-        let pairs = edges.par_iter().map(|&(u, v)| self.pair(u, v)).collect();
+        let pairs = work::map(&edges, |&(u, v)| self.pair(u, v));
         Pairings { edges, pairs }
     }
 
@@ -212,7 +212,7 @@ impl<'a, const D: usize, const N: usize> Net<'a, D, N> {
             edges.filter(|(edge, _)| !self.is_fine(pairings, *edge)).collect();
         bad.sort_by_key(|(edge, _)| *edge);
         bad.dedup_by_key(|(edge, _)| *edge);
-        let middles: Vec<_> = bad.par_iter().map(|&((u, v), face)| self.middle(u, v, face)).collect();
+        let middles: Vec<_> = work::map(&bad, |&((u, v), face)| self.middle(u, v, face));
         let first = self.sources.len() as u32;
         self.extend(middles);
         let middle = |u: u32, v: u32| {

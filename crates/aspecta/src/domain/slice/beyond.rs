@@ -12,7 +12,7 @@ use crate::domain::partition::{Partition, Region};
 use crate::domain::sheet::Sheet;
 use crate::paving::Control;
 use aspecta_robot::num::without_turns;
-use rayon::prelude::*;
+use aspecta_robot::work;
 use std::collections::BTreeSet;
 
 /// Nodes of a region that ways start and end at.
@@ -59,7 +59,7 @@ impl Beyond {
             .filter(|&(a, b)| regions[a].solutions > 1 && regions[a].solutions == regions[b].solutions)
             .collect();
         let shown = |&(a, b): &(usize, usize)| if control.is_cancelled() { None } else { ways.between(a, b) };
-        let shown: Vec<Option<Shown>> = pairs.par_iter().map(shown).collect();
+        let shown: Vec<Option<Shown>> = work::map(&pairs, shown);
         Some(Self::concluded(regions.len(), pairs.into_iter().zip(shown)))
     }
 

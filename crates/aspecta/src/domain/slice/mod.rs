@@ -20,7 +20,7 @@ use super::sheet::Sheet;
 use crate::aspect::Analysis;
 use arrayvec::ArrayVec;
 use aspecta_kinematics::modal::Constraint;
-use rayon::prelude::*;
+use aspecta_robot::work;
 use std::collections::BTreeMap;
 
 /// Two neighbouring nodes, the lesser first.
@@ -44,7 +44,7 @@ pub fn surfaces(analysis: &Analysis, domains: &Domains) -> Mesh {
     let mut edges: Vec<Edge> = simplices.iter().flat_map(|corners| cut_edges(labels, corners)).collect();
     edges.sort_unstable();
     edges.dedup();
-    let crossings: Vec<Crossing> = edges.par_iter().map(|&edge| crossing(&sheet, labels, edge)).collect();
+    let crossings: Vec<Crossing> = work::map(&edges, |&edge| crossing(&sheet, labels, edge));
     let index = edges.into_iter().zip(0..).collect();
     let mut net = Net { labels, index, middles: BTreeMap::new(), crossings, simplices: Vec::new() };
     simplices.iter().for_each(|corners| net.add(corners));

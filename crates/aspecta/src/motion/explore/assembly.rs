@@ -9,9 +9,9 @@ use crate::paving::Control;
 use aspecta_kinematics::demand::Demand;
 use aspecta_kinematics::{DirectSolutions, Solution, WorkingMode};
 use aspecta_robot::num::padded;
+use aspecta_robot::work::Stopwatch;
 use aspecta_robot::{Robot, Window};
 use serde::Serialize;
-use std::time::Instant;
 
 /// The direct solutions of a joint vector, and which of them can be changed into each other without meeting a singularity.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -64,7 +64,7 @@ pub fn join_solutions(
     effort: &Effort,
     control: &Control<'_>,
 ) -> Result<JoinedSolutions, ExploreError> {
-    let (window, begin) = (roaming(robot)?, Instant::now());
+    let (window, begin) = (roaming(robot)?, Stopwatch::start());
     let DirectSolutions { solutions, complete } = found;
     let mut modes: Vec<WorkingMode> = solutions.iter().map(|s| s.mode).collect();
     modes.sort_unstable();

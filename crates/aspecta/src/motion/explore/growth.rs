@@ -6,8 +6,8 @@ use super::territory::Territory;
 use super::{Effort, End};
 use crate::paving::{Control, Progress};
 use aspecta_robot::num::Random;
-use rayon::prelude::*;
-use std::time::Instant;
+use aspecta_robot::work;
+use aspecta_robot::work::Stopwatch;
 
 /// Tasks of a round. They see the roadmap as it was before the round, so that their order does not matter.
 const TASKS: u64 = 32;
@@ -62,7 +62,7 @@ impl<'a> Growth<'a> {
     }
 
     /// Grows until all targets are joined (with none: as long as it may).
-    pub fn run(&mut self, effort: &Effort, begin: Instant, control: &Control<'_>) -> End {
+    pub fn run(&mut self, effort: &Effort, begin: Stopwatch, control: &Control<'_>) -> End {
         loop {
             if !self.targets.is_empty() && self.open().len() < 2 {
                 return End::Joined;
@@ -99,14 +99,12 @@ impl<'a> Growth<'a> {
         let open = self.open();
         let first = self.rounds * TASKS;
         self.rounds += 1;
-        let found: Vec<Found> = (first..first + TASKS)
-            .into_par_iter()
-            .map(|task| {
-                let random = &mut Random::of(&[task]);
-                let grows = open.len() > 1 && (task % 2 == 1 || !draws);
-                if grows { self.branch(&open, random) } else { self.sample(random) }
-            })
-            .collect();
+        let found: Vec<Found> = work::map_range(TASKS as usize, |task| {
+            let task = first + task as u64;
+            let random = &mut Random::of(&[task]);
+            let grows = open.len() > 1 && (task % 2 == 1 || !draws);
+            if grows { self.branch(&open, random) } else { self.sample(random) }
+        });
         self.samples += TASKS as usize;
         found.into_iter().for_each(|found| self.keep(found));
         self.roadmap.name_components();

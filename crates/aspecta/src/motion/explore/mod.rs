@@ -35,12 +35,12 @@ use crate::aspect::DetSign;
 use crate::paving::Control;
 use aspecta_kinematics::demand::Demand;
 use aspecta_robot::WorkingMode;
+use aspecta_robot::work::Stopwatch;
 use aspecta_robot::{Platform, Robot, Unbounded, Window};
 use growth::Growth;
 use seeds::Seeds;
 use serde::Serialize;
 use std::cell::LazyCell;
-use std::time::Instant;
 use territory::{Territory, roaming_window};
 
 /// How long a roadmap grows. Whatever is met first ends it.
@@ -59,8 +59,8 @@ impl Effort {
     }
 
     /// Whether the time since `begin` is all it may take.
-    fn is_spent(self, begin: Instant) -> bool {
-        self.seconds.is_some_and(|most| begin.elapsed().as_secs_f64() >= most)
+    fn is_spent(self, begin: Stopwatch) -> bool {
+        self.seconds.is_some_and(|most| begin.seconds() >= most)
     }
 }
 
@@ -174,7 +174,7 @@ pub fn explore(
         return Err(ExploreError::Mode { mode, robot: robot.name.clone() });
     }
     let modes = if modes.is_empty() { &known[..] } else { modes };
-    let (classes, begin) = (classes_of(modes), Instant::now());
+    let (classes, begin) = (classes_of(modes), Stopwatch::start());
     let seeds = LazyCell::new(|| Seeds::draw(robot, || control.is_cancelled() || effort.is_spent(begin)));
     let explored = |(k, &(mode, det_a)): (usize, &(WorkingMode, DetSign))| {
         let effort = effort.part(k, classes.len());

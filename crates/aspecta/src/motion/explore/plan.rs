@@ -14,7 +14,7 @@ use aspecta_kinematics::demand::Demand;
 use aspecta_robot::Robot;
 use aspecta_robot::WorkingMode;
 use aspecta_robot::num::padded;
-use std::time::Instant;
+use aspecta_robot::work::Stopwatch;
 
 /// A path from `start` to `goal` in `mode`, proved segment by segment. Angles count modulo full turns, and (roll, pitch, yaw) means the same as
 /// (roll + π, π − pitch, yaw + π): the last waypoint is the goal in coordinates that the motion arrives with.
@@ -30,7 +30,7 @@ pub fn plan(
     effort: &Effort,
     control: &Control<'_>,
 ) -> Result<Plan, NoWay> {
-    let (begin, window) = (Instant::now(), roaming(robot)?);
+    let (begin, window) = (Stopwatch::start(), roaming(robot)?);
     if !robot.working_modes().contains(&mode) {
         return Err(Refusal::Mode(mode).into());
     }
@@ -42,7 +42,7 @@ pub fn plan(
     let end = growth.run(effort, begin, control);
     let way = if end == End::Joined { growth.roadmap.way(&growth.territory, 0, 1) } else { None };
     let Some(way) = way else {
-        let (samples, seconds) = (growth.samples, begin.elapsed().as_secs_f64());
+        let (samples, seconds) = (growth.samples, begin.seconds());
         return Err(Refusal::NotJoined { samples, seconds, margins: options.margins }.into());
     };
     growth.territory.plan(&growth.roadmap, &way, mode, det_a).map_err(NoWay::from)

@@ -6,8 +6,8 @@ use crate::aspect::DetSign;
 use aspecta_kinematics::Kinematics;
 use aspecta_kinematics::{Solution, WorkingMode};
 use aspecta_robot::num::{Random, padded};
+use aspecta_robot::work;
 use aspecta_robot::{Leg, Robot};
-use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// Joint vectors drawn.
@@ -33,7 +33,7 @@ impl Seeds {
             let seed = |s: &Solution| (s.mode, DetSign::of(s.det_a), padded(&s.pose));
             found.iter().flat_map(|found| found.iter()).map(seed).collect::<Vec<Seed>>()
         };
-        Self((0..DRAWS).into_par_iter().flat_map_iter(of).collect())
+        Self(work::flat_map_range(DRAWS as usize, |draw| of(draw as u64)))
     }
 
     /// Those that seem to lie in a class.

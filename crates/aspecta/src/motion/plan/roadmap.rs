@@ -7,7 +7,7 @@ use crate::motion::search::cheapest_way;
 use crate::paving::{ClassSet, Mark, Node};
 use aspecta_kinematics::demand::Margins;
 use aspecta_robot::num::padded;
-use rayon::prelude::*;
+use aspecta_robot::work;
 use std::collections::{HashMap, HashSet};
 
 /// What a unit of length is taken to cost on what is left of a way. A unit costs 1 at least, seldom less than twice that; looking ahead so
@@ -96,8 +96,7 @@ impl Roadmap {
             }
         }
         let starts: Vec<u32> = largest.into_values().collect();
-        let bridges: Vec<Bridge> =
-            starts.par_iter().filter_map(|&from| self.bridge_from(analysis, from)).collect();
+        let bridges: Vec<Bridge> = work::flat_map(&starts, |&from| self.bridge_from(analysis, from));
         let mut pairs: Vec<(u32, u32)> = Vec::new();
         for from in 0..self.spots.len() as u32 {
             pairs.extend(self.around(from).iter().map(|&to| (from, to)));

@@ -1,4 +1,10 @@
-//! How a caller watches and stops long work.
+//! Long work: how a caller watches and stops it, how it is spread over threads, and how it is timed.
+
+mod clock;
+mod threads;
+
+pub use clock::Stopwatch;
+pub use threads::{flat_map, flat_map_range, join, map, map_range, thread_count, update, with_stack};
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
