@@ -14,12 +14,11 @@ mod equations;
 mod search;
 mod unfold;
 
-use crate::Kinematics;
 use crate::chart::{Chart, folds};
-use crate::{KinematicsError, WorkingMode};
+use crate::{Kinematics, KinematicsError, WorkingMode};
 use aspecta_robot::num::Interval;
 use aspecta_robot::work::Control;
-use aspecta_robot::{Actuator, Platform, Robot, SliceError, Window};
+use aspecta_robot::{Platform, Robot, SliceError, Window};
 use collect::{Known, collect};
 use equations::System;
 use search::Search;
@@ -230,7 +229,7 @@ pub fn cusps(robot: &Robot, options: &Options, control: &Control<'_>) -> Result<
     match robot.platform {
         Platform::PlaneBody => find::<2, 3>(robot, options, &window, &mut all, control),
         Platform::TurningBody => find::<3, 3>(robot, options, &window, &mut all, control),
-        _ => return Ok(all),
+        Platform::PlanePoint | Platform::TranslatingBody | Platform::FreeBody => return Ok(all),
     }
     all.complete = all.undecided.is_empty();
     all.proof = Proof::Intervals;
@@ -251,7 +250,7 @@ fn check(robot: &Robot, options: &Options) -> Result<Vec<WorkingMode>, CuspError
     let mut q = vec![1.0; dof];
     for &(index, value) in &options.fix {
         *q.get_mut(index).ok_or_else(|| CuspError::NoSuchJoint { robot: name(), dof, index })? = value;
-        if matches!(robot.legs[index].actuator, Actuator::Strut) && value <= 0.0 {
+        if robot.legs[index].actuator.forbids(value) {
             return Err(KinematicsError::StrutLength { leg: index + 1, value }.into());
         }
     }

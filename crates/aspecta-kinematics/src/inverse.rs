@@ -6,7 +6,6 @@ use super::singularity::serial_legs;
 use super::{KinematicsError, Solution, WorkingMode, for_platform};
 use crate::Kinematics;
 use aspecta_robot::Robot;
-use aspecta_robot::legs::{drive, eliminate};
 use aspecta_robot::num::Interval;
 
 /// What one leg allows at a pose.
@@ -30,8 +29,8 @@ fn legs_at<const D: usize, const N: usize>(robot: &Robot, pose: &[f64]) -> Vec<L
     let placement = Placement::<f64, D>::at(robot.platform, pose);
     let solve = |leg| {
         let span = placement.span(leg, &placement.arm(leg));
-        let closure = eliminate(&leg.actuator, &span);
-        let proof = eliminate(&leg.actuator, &exact.span(leg, &exact.arm(leg)));
+        let closure = leg.actuator.eliminate(&span);
+        let proof = leg.actuator.eliminate(&exact.span(leg, &exact.arm(leg)));
         let at = LegAt { leg, span, closure, crank: None };
         let mut solutions = LegSolutions {
             q: [None; 2],
@@ -48,7 +47,7 @@ fn legs_at<const D: usize, const N: usize>(robot: &Robot, pose: &[f64]) -> Vec<L
                 continue;
             }
             let sh = s * closure.reach.max(0.0).sqrt();
-            solutions.q[k] = Some(drive(&leg.actuator, &span, &closure, sh).value());
+            solutions.q[k] = Some(leg.actuator.drive(&span, &closure, sh).value());
             solutions.within_limits[k] =
                 leg.limits.iter().all(|limit| margin(limit, &at, sh, &placement) > 0.0);
         }

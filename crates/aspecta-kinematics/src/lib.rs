@@ -1,5 +1,8 @@
 //! Inverse and direct geometric models, Jacobians and singularities (section 2 of the paper).
 
+// A variant that is added leads to every place that must decide about it.
+#![warn(clippy::wildcard_enum_match_arm)]
+
 mod architecture;
 pub mod chart;
 pub mod condition;

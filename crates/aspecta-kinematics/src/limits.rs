@@ -1,9 +1,9 @@
 //! Joint limits as functions that are positive strictly inside.
 
 use super::placement::{Placement, into_frame};
-use aspecta_robot::legs::{Closure, Drive, drive, sum_of_squares};
+use aspecta_robot::legs::{Closure, Drive, sum_of_squares};
 use aspecta_robot::num::{Interval, Scalar, dot, dot_constant, each};
-use aspecta_robot::{Actuator, Leg, Limit};
+use aspecta_robot::{Leg, Limit};
 
 /// A leg at a pose, with q eliminated: what a limit looks at.
 pub struct LegAt<'a, T, const D: usize> {
@@ -38,7 +38,7 @@ impl<'a, T: Scalar, const D: usize> LegAt<'a, T, D> {
     fn drive(&self, sh: T) -> Drive<T> {
         match self.crank {
             Some((cos, sin)) => Drive::Angle { cos, sin, norm: T::constant(Interval::point(1.0)) },
-            None => drive(&self.leg.actuator, &self.span, &self.closure, sh),
+            None => self.leg.actuator.drive(&self.span, &self.closure, sh),
         }
     }
 }
@@ -58,16 +58,7 @@ pub fn margin<T: Scalar, const D: usize>(
             }
             Drive::Length(_) => T::constant(Interval::ENTIRE),
         },
-        Limit::ActuatorLength { min, max } => match at.leg.actuator {
-            Actuator::Strut => {
-                let q2 = sum_of_squares(&at.span);
-                (q2 - T::constant(min.square())) * (T::constant(max.square()) - q2)
-            }
-            _ => {
-                let q = at.span[0] + sh;
-                (q - T::constant(*min)) * (T::constant(*max) - q)
-            }
-        },
+        Limit::ActuatorLength { min, max } => at.leg.actuator.length_margin(&at.span, sh, *min, *max),
         Limit::Elbow { middle, half_cos } => {
             let (bend, both) = bend(at);
             bend.scale(middle.0) - sh.scale(middle.1) - T::constant(both * *half_cos)
@@ -96,19 +87,15 @@ pub fn unit<T: Scalar, const D: usize>(limit: &Limit, at: &LegAt<'_, T, D>, sh: 
             Drive::Length(_) => T::constant(Interval::ENTIRE),
         },
         Limit::BaseCone { .. } | Limit::PlatformCone { .. } => rod_length(at),
-        _ => T::constant(Interval::point(1.0)),
+        Limit::ActuatorLength { .. } | Limit::Elbow { .. } | Limit::SpatialElbow { .. } => {
+            T::constant(Interval::point(1.0))
+        }
     }
 }
 
-/// (2LM cos ψ, 2LM) with ψ the angle at B: ‖d‖² = L² + M² + 2LM cos ψ, and 2LM sin ψ = −s h.
+/// (2LM cos ψ, 2LM) with ψ the angle at B; it may be anything if there is none.
 fn bend<T: Scalar, const D: usize>(at: &LegAt<'_, T, D>) -> (T, Interval) {
-    match at.leg.actuator {
-        Actuator::Revolute { crank, rod } => (
-            sum_of_squares(&at.span) - T::constant(crank.square() + rod.square()),
-            Interval::point(2.0) * crank * rod,
-        ),
-        _ => (T::constant(Interval::ENTIRE), Interval::point(1.0)),
-    }
+    at.leg.actuator.bend(&at.span).unwrap_or((T::constant(Interval::ENTIRE), Interval::point(1.0)))
 }
 
 /// The rod's direction in the leg's frame, times [`rod_length`].
@@ -118,11 +105,5 @@ fn rod_direction<T: Scalar, const D: usize>(at: &LegAt<'_, T, D>, sh: T) -> [T; 
 
 /// ‖weight · ∂f/∂d‖ = 2 M weight (2 q for a strut).
 pub(super) fn rod_length<T: Scalar, const D: usize>(at: &LegAt<'_, T, D>) -> T {
-    match at.leg.actuator {
-        Actuator::Revolute { rod, .. } | Actuator::Prismatic { rod } => at.closure.weight.scale(rod + rod),
-        _ => {
-            let q = at.closure.reach.sqrt();
-            q + q
-        }
-    }
+    at.leg.actuator.row_length(&at.closure)
 }

@@ -10,7 +10,7 @@ use super::condition::Conditioner;
 use super::limits::LegAt;
 use super::minors::Minors;
 use super::placement::{Placement, determinant, minor, out_of_frame, wrench};
-use aspecta_robot::legs::{Closure, Drive, drive, eliminate};
+use aspecta_robot::legs::{Closure, Drive};
 use aspecta_robot::num::{Pack, Scalar, Slope, each};
 use aspecta_robot::{Leg, Robot};
 
@@ -25,7 +25,7 @@ pub fn closures<T: Scalar, const D: usize, const N: usize>(
     for (at, leg) in legs.iter_mut().zip(&robot.legs) {
         at.arm = placement.arm(leg);
         at.span = placement.span(leg, &at.arm);
-        at.closure = eliminate(&leg.actuator, &at.span);
+        at.closure = leg.actuator.eliminate(&at.span);
     }
     legs
 }
@@ -58,7 +58,7 @@ impl<T: Scalar, const D: usize> LegClosure<T, D> {
 
     /// The driven joint in the posture named by `sign`.
     pub fn drive(&self, leg: &Leg, sign: i8) -> Drive<T> {
-        drive(&leg.actuator, &self.span, &self.closure, self.heights()[usize::from(sign < 0)])
+        leg.actuator.drive(&self.span, &self.closure, self.heights()[usize::from(sign < 0)])
     }
 
     /// Whether [`Closure::weight`] varies with the pose.

@@ -13,7 +13,7 @@ pub trait Kinematics {
     /// listed too, with `within_limits` false.
     ///
     /// *Certified* means: interval arithmetic proves H_j > 0 for every leg, so by the closed form
-    /// ([`eliminate`]) exactly one configuration of each working mode exists here.
+    /// ([`eliminate`](aspecta_robot::Actuator::eliminate)) exactly one configuration of each working mode exists here.
     ///
     /// # Errors
     /// [`KinematicsError`] if `pose` has the wrong length or is not finite.

@@ -1,8 +1,9 @@
 //! Where three or more rods of a translating platform can all be parallel: a surface on which det A vanishes to higher order.
 
 use super::placement::Placement;
+use aspecta_robot::legs::{Elbow, RigidRod};
 use aspecta_robot::num::without_turns;
-use aspecta_robot::{Actuator, Leg, Limit, Platform, Robot, Window};
+use aspecta_robot::{Leg, Limit, Platform, Robot, Window};
 use nalgebra::Vector3;
 use serde::Serialize;
 
@@ -45,7 +46,9 @@ pub fn parallel_rods(robot: &Robot, window: &Window) -> Vec<ParallelRods> {
         Platform::FreeBody if window.held().map(|(k, _)| k).eq(3..6) => {
             (Placement::at(robot.platform, &still), 5)
         }
-        _ => return Vec::new(),
+        Platform::PlanePoint | Platform::PlaneBody | Platform::TurningBody | Platform::FreeBody => {
+            return Vec::new();
+        }
     };
     let tracks: Vec<Track<'_>> =
         robot.legs.iter().filter_map(|leg| Track::of(leg, placement.arm(leg))).collect();
@@ -74,30 +77,25 @@ struct Track<'a> {
     leg: &'a Leg,
     centre: Vector3<f64>,
     frame: [Vector3<f64>; 3],
-    /// r; `None` for a slider.
-    crank: Option<f64>,
+    elbow: Elbow,
     rod: f64,
 }
 
 impl<'a> Track<'a> {
     /// `arm`: from the platform's origin to C, in the base.
     fn of(leg: &'a Leg, arm: [f64; 3]) -> Option<Self> {
-        let (crank, rod) = match leg.actuator {
-            Actuator::Revolute { crank, rod } => (Some(crank.mid()), rod.mid()),
-            Actuator::Prismatic { rod } => (None, rod.mid()),
-            Actuator::Strut | Actuator::Spherical { .. } => return None,
-        };
+        let RigidRod { length: rod, elbow } = leg.actuator.rigid_rod()?;
         let vector = |v: &[aspecta_robot::num::Interval; 3]| Vector3::from(v.map(|x| x.mid()));
         let centre = vector(&leg.anchor) - Vector3::from(arm);
-        Some(Self { leg, centre, frame: leg.frame.each_ref().map(vector), crank, rod })
+        Some(Self { leg, centre, frame: leg.frame.each_ref().map(vector), elbow, rod })
     }
 
     fn at(&self, q: f64) -> Vector3<f64> {
         let [u, v, _] = self.frame;
         self.centre
-            + match self.crank {
-                Some(r) => r * (q.cos() * u + q.sin() * v),
-                None => q * u,
+            + match self.elbow {
+                Elbow::Circle(r) => r * (q.cos() * u + q.sin() * v),
+                Elbow::Line => q * u,
             }
     }
 
@@ -105,13 +103,19 @@ impl<'a> Track<'a> {
     fn joint_at(&self, point: &Vector3<f64>) -> Option<f64> {
         let [u, v, _] = self.frame;
         let d = point - self.centre;
-        let q = if self.crank.is_some() { d.dot(&v).atan2(d.dot(&u)) } else { d.dot(&u) };
+        let q = match self.elbow {
+            Elbow::Circle(_) => d.dot(&v).atan2(d.dot(&u)),
+            Elbow::Line => d.dot(&u),
+        };
         let allowed = |limit: &Limit| match limit {
             Limit::ActuatorAngle { middle: (cos, sin), half_cos } => {
                 without_turns(q - sin.mid().atan2(cos.mid())).cos() > half_cos.mid()
             }
             Limit::ActuatorLength { min, max } => min.mid() < q && q < max.mid(),
-            _ => true,
+            Limit::Elbow { .. }
+            | Limit::SpatialElbow { .. }
+            | Limit::BaseCone { .. }
+            | Limit::PlatformCone { .. } => true,
         };
         let there = (self.at(q) - point).norm() <= TOLERANCE * self.rod;
         (there && self.leg.limits.iter().all(allowed)).then_some(q)
@@ -121,18 +125,20 @@ impl<'a> Track<'a> {
     fn meet(&self, other: &Self) -> Vec<Vector3<f64>> {
         let gap = self.centre - other.centre;
         let [u, v, w] = other.frame;
-        let normal =
-            if self.crank.is_some() { self.frame[2] } else { self.frame[0].cross(&u.cross(&self.frame[0])) };
+        let normal = match self.elbow {
+            Elbow::Circle(_) => self.frame[2],
+            Elbow::Line => self.frame[0].cross(&u.cross(&self.frame[0])),
+        };
         let (a, b, k) = (normal.dot(&u), normal.dot(&v), normal.dot(&gap));
-        match other.crank {
-            None if a.abs() > TOLERANCE => vec![other.at(k / a)],
-            None => Vec::new(),
+        match (self.elbow, other.elbow) {
+            (_, Elbow::Line) if a.abs() > TOLERANCE => vec![other.at(k / a)],
+            (_, Elbow::Line) => Vec::new(),
             // A line against a circle: the other way round.
-            Some(_) if self.crank.is_none() => {
+            (Elbow::Line, Elbow::Circle(_)) => {
                 let speed = w.dot(&self.frame[0]);
                 if speed.abs() > TOLERANCE { vec![self.at(-w.dot(&gap) / speed)] } else { Vec::new() }
             }
-            Some(r) => {
+            (Elbow::Circle(_), Elbow::Circle(r)) => {
                 let reach = r * a.hypot(b);
                 if reach <= TOLERANCE * r || k.abs() > reach {
                     return Vec::new();
@@ -193,7 +199,8 @@ mod tests {
         orthoglide.legs.iter_mut().for_each(|leg| leg.limits.clear());
         let found = rods_of(&orthoglide);
         assert_eq!(found.len(), 1, "{found:?}");
-        orthoglide.legs[2].actuator = Actuator::Prismatic { rod: aspecta_robot::num::Interval::point(300.0) };
+        orthoglide.legs[2].actuator =
+            aspecta_robot::Prismatic { rod: aspecta_robot::num::Interval::point(300.0) }.into();
         assert_eq!(rods_of(&orthoglide), []);
         assert_eq!(rods_of(&find("linear-delta").unwrap()), [], "parallel rails never meet");
     }

@@ -4,6 +4,8 @@ use super::minors;
 use aspecta_robot::num::{Interval, Jet, Scalar, dot, dot_constant, each, without_turns};
 use aspecta_robot::{Leg, Platform};
 
+pub use aspecta_robot::{into_frame, out_of_frame};
+
 /// The platform's frame in the base: C_i = origin + rotation · c_i.
 #[derive(Clone, Copy, Debug)]
 pub struct Placement<T, const D: usize> {
@@ -174,19 +176,6 @@ pub fn moved<const D: usize, const N: usize>(platform: Platform, pose: &[f64; N]
     to
 }
 
-/// A base vector in the leg's frame.
-pub fn into_frame<T: Scalar, const D: usize>(leg: &Leg, v: &[T; D]) -> [T; D] {
-    each!(|k| dot_constant(&leg.frame[k][..D], v))
-}
-
-/// A vector of the leg's frame in the base.
-pub fn out_of_frame<T: Scalar, const D: usize>(leg: &Leg, v: &[T; D]) -> [T; D] {
-    each!(|k| {
-        let column = [leg.frame[0][k], leg.frame[1][k], leg.frame[2][k]];
-        dot_constant(&column[..D], v)
-    })
-}
-
 /// The row of A that belongs to the gradient g = ∂f/∂C (base frame) at the end of `arm`: the wrench
 /// (g, arm × g) about the platform's origin, in the order (translation, rotation).
 ///
@@ -255,7 +244,7 @@ pub fn leg_gradient_turned<T: Scalar, const D: usize>(
     let variable = |x: T, k: usize| Jet::<T, 4>::variable(x, k);
     let jets: [Jet<T, 4>; D] = each!(|k| variable(d[k], k));
     let q = variable(q, 3);
-    let f = aspecta_robot::legs::equation_turned(&leg.actuator, &jets, q, || {
+    let f = leg.actuator.equation_turned(&jets, q, || {
         let (sin, cos) = turn();
         (q.chain(sin, cos), q.chain(cos, -sin))
     });

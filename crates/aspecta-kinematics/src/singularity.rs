@@ -154,9 +154,7 @@ pub(crate) fn serial_legs(robot: &Robot, b: &[f64]) -> Vec<usize> {
 
 fn serial_measures(robot: &Robot, b: &[f64]) -> Vec<f64> {
     let measure = |(actuator, b): (&Actuator, &f64)| match actuator.greatest_reach() {
-        // |B| = h, or 2h for a slider, whose leg equation is quadratic in q.
-        Some(reach) if matches!(actuator, Actuator::Prismatic { .. }) => b.abs() / (2.0 * reach.mid().sqrt()),
-        Some(reach) => b.abs() / reach.mid().sqrt(),
+        Some(reach) => actuator.signed_height(b.abs()) / reach.mid().sqrt(),
         None => f64::from(*b != 0.0),
     };
     robot.legs.iter().map(|l| &l.actuator).zip(b).map(measure).collect()

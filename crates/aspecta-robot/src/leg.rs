@@ -1,6 +1,7 @@
 //! Legs, their actuators and their joint limits.
 
-use crate::num::{Interval, Scalar};
+use crate::legs::Actuator;
+use crate::num::{Interval, Scalar, dot_constant, each};
 use serde::{Deserialize, Serialize};
 
 /// An orthonormal frame at the anchor of a leg: its rows are the unit vectors u, v, w in base
@@ -25,93 +26,6 @@ pub struct Leg {
     pub actuator: Actuator,
     /// Limits of its actuated and passive joints.
     pub limits: Vec<Limit>,
-}
-
-/// The driven joint of a leg and the lengths behind it. u, v, w are the leg's frame.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Actuator {
-    /// RRR, RSS, RUS: a crank of length L turns by q (rad) from u towards v about w, a rod of length M
-    /// follows. f = ‖C − A − L(cos q u + sin q v)‖² − M².
-    Revolute {
-        /// L > 0.
-        crank: Interval,
-        /// M > 0.
-        rod: Interval,
-    },
-    /// PRR, PSS, PUS: a slider at A + q u, a rod of length M. f = ‖C − A − q u‖² − M².
-    Prismatic {
-        /// M > 0.
-        rod: Interval,
-    },
-    /// RPR, UPS, SPS: the distance from A to C is driven. f = ‖C − A‖² − q², q > 0.
-    Strut,
-    /// RRR on a sphere: w_i = cos(proximal) w + sin(proximal)(cos q u + sin q v) is the intermediate
-    /// joint, at the angle `distal` of the platform joint v_i. f = w_i · v_i − cos(distal).
-    Spherical {
-        /// (cos, sin) of the proximal link's angle.
-        proximal: (Interval, Interval),
-        /// cos of the distal link's angle.
-        distal_cos: Interval,
-    },
-}
-
-impl Actuator {
-    /// The name used in robot files.
-    pub const fn kind(&self) -> &'static str {
-        match self {
-            Self::Revolute { .. } => "revolute",
-            Self::Prismatic { .. } => "prismatic",
-            Self::Strut => "strut",
-            Self::Spherical { .. } => "spherical",
-        }
-    }
-
-    /// How many inverse solutions the leg has: 2, or 1 for a strut.
-    pub const fn postures(&self) -> usize {
-        match self {
-            Self::Strut => 1,
-            _ => 2,
-        }
-    }
-
-    /// Whether q is an angle (rad) rather than a length.
-    pub const fn is_angle(&self) -> bool {
-        matches!(self, Self::Revolute { .. } | Self::Spherical { .. })
-    }
-
-    /// The greatest H can be: (2LM)², M² or (sin sin)²; `None` for struts, whose H has no
-    /// zero to keep away from. Makes reaches comparable.
-    pub fn greatest_reach(&self) -> Option<Interval> {
-        let one = Interval::point(1.0);
-        match self {
-            Self::Revolute { crank, rod } => Some(((*crank + *crank) * *rod).square()),
-            Self::Prismatic { rod } => Some(rod.square()),
-            Self::Strut => None,
-            Self::Spherical { proximal, distal_cos } => {
-                Some(proximal.1.square() * (one - distal_cos.square()))
-            }
-        }
-    }
-
-    /// The size of the terms of the leg equation, approximately, to judge a residual by.
-    pub fn equation_scale(&self, q: f64) -> f64 {
-        match self {
-            Self::Revolute { crank, rod } => (crank.mid() + rod.mid()).powi(2),
-            Self::Prismatic { rod } => rod.mid().powi(2) + q * q,
-            Self::Strut => q * q,
-            Self::Spherical { .. } => 1.0,
-        }
-    }
-
-    /// The sum of the link lengths, approximately (1 for struts and spherical legs).
-    pub fn size(&self) -> f64 {
-        match self {
-            Self::Revolute { crank, rod } => crank.mid() + rod.mid(),
-            Self::Prismatic { rod } => rod.mid(),
-            Self::Strut | Self::Spherical { .. } => 1.0,
-        }
-    }
 }
 
 /// A joint limit: a condition that a configuration within the limits fulfils strictly.
@@ -173,6 +87,19 @@ pub const BASE_FRAME: Frame = {
     [[I, O, O], [O, I, O], [O, O, I]]
 };
 
+/// A base vector in the leg's frame.
+pub fn into_frame<T: Scalar, const D: usize>(leg: &Leg, v: &[T; D]) -> [T; D] {
+    each!(|k| dot_constant(&leg.frame[k][..D], v))
+}
+
+/// A vector of the leg's frame in the base.
+pub fn out_of_frame<T: Scalar, const D: usize>(leg: &Leg, v: &[T; D]) -> [T; D] {
+    each!(|k| {
+        let column = [leg.frame[0][k], leg.frame[1][k], leg.frame[2][k]];
+        dot_constant(&column[..D], v)
+    })
+}
+
 /// A point with exact coordinates given as decimals.
 pub fn point(p: [f64; 3]) -> [Interval; 3] {
     p.map(Interval::decimal)
@@ -191,18 +118,8 @@ impl Limit {
 }
 
 impl Leg {
-    /// A revolute-driven leg in the plane: crank `l` turning from the x axis, rod `m`.
-    pub fn revolute(anchor: [f64; 2], attachment: [f64; 2], l: f64, m: f64) -> Self {
-        let actuator = Actuator::Revolute { crank: Interval::decimal(l), rod: Interval::decimal(m) };
-        Self::planar(anchor, attachment, actuator)
-    }
-
-    /// A strut in the plane.
-    pub fn strut(anchor: [f64; 2], attachment: [f64; 2]) -> Self {
-        Self::planar(anchor, attachment, Actuator::Strut)
-    }
-
-    fn planar(a: [f64; 2], c: [f64; 2], actuator: Actuator) -> Self {
+    /// A leg in the plane whose frame is that of the base.
+    pub(crate) fn planar(a: [f64; 2], c: [f64; 2], actuator: Actuator) -> Self {
         Self {
             anchor: point([a[0], a[1], 0.0]),
             attachment: point([c[0], c[1], 0.0]),
@@ -220,7 +137,10 @@ impl Leg {
                 Some((middle - half, middle + half))
             }
             Limit::ActuatorLength { min, max } => Some((min.mid(), max.mid())),
-            _ => None,
+            Limit::Elbow { .. }
+            | Limit::SpatialElbow { .. }
+            | Limit::BaseCone { .. }
+            | Limit::PlatformCone { .. } => None,
         })
     }
 
@@ -233,7 +153,10 @@ impl Leg {
                 Some((middle - half).hull(middle + half))
             }
             Limit::ActuatorLength { min, max } => Some(min.hull(*max)),
-            _ => None,
+            Limit::Elbow { .. }
+            | Limit::SpatialElbow { .. }
+            | Limit::BaseCone { .. }
+            | Limit::PlatformCone { .. } => None,
         })
     }
 
@@ -241,7 +164,11 @@ impl Leg {
     pub fn length_range(&self) -> Option<(Interval, Interval)> {
         self.limits.iter().find_map(|l| match l {
             Limit::ActuatorLength { min, max } => Some((*min, *max)),
-            _ => None,
+            Limit::ActuatorAngle { .. }
+            | Limit::Elbow { .. }
+            | Limit::SpatialElbow { .. }
+            | Limit::BaseCone { .. }
+            | Limit::PlatformCone { .. } => None,
         })
     }
 }

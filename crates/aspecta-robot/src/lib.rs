@@ -4,6 +4,9 @@
 //! a frame of its own at its anchor A_i, in which every kind of leg has a short equation
 //! ([`crate::legs`]); the platform is the motion group that places the attachment points C_i.
 
+// A variant that is added leads to every place that must decide about it.
+#![warn(clippy::wildcard_enum_match_arm)]
+
 pub mod catalogue;
 pub mod chart;
 mod classes;
@@ -19,16 +22,19 @@ mod window;
 pub mod work;
 mod working_mode;
 
+pub use crate::legs::{Actuator, Prismatic, Revolute, Spherical, Strut};
 pub use classes::{AXES, ClassSet, MAX_BOXES, MODES};
+pub(crate) use file::{Fault, LegKeys};
 pub use file::{FileError, Mistake, Problem};
 pub use frame::{crank_frame, rail_frame};
-pub use leg::{Actuator, BASE_FRAME, Frame, Leg, Limit, point};
+pub use leg::{BASE_FRAME, Frame, Leg, Limit, into_frame, out_of_frame, point};
 pub use platform::{Coordinate, Platform};
 pub use slice::SliceError;
-pub use sound::{Unsound, holds, sane, usable, wanted};
+pub use sound::{Takes, Unsound, holds, sane, takes, usable, wanted};
 pub use window::{Unbounded, Window};
 pub use working_mode::{NotAMode, WorkingMode};
 
+use crate::legs::Kind;
 use serde::{Deserialize, Serialize};
 
 /// Numbers beyond this are not those of a robot.
@@ -117,17 +123,16 @@ impl Robot {
 
 /// Whether legs of these kinds and the platform make a robot: one leg per degree of freedom, spherical legs for
 /// the turning body only.
-fn check_legs(platform: Platform, kinds: &[&'static str]) -> Result<(), RobotError> {
+fn check_legs(platform: Platform, kinds: &[Kind]) -> Result<(), RobotError> {
     let wanted = platform.dof();
     if kinds.len() != wanted {
         return Err(RobotError::LegCount { platform, wanted, found: kinds.len() });
     }
-    let fits = |kind: &str| (kind == "spherical") == (platform == Platform::TurningBody);
-    match kinds.iter().position(|kind| !fits(kind)) {
+    match kinds.iter().position(|kind| !kind.facts().fits(platform)) {
         None => Ok(()),
         Some(k) => Err(RobotError::Mismatch {
             leg: k + 1,
-            actuator: kinds[k],
+            actuator: kinds[k].name(),
             platform,
             hint: "`spherical` legs and the `turning-body` platform go together, and with nothing else",
         }),

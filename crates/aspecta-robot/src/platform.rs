@@ -81,7 +81,7 @@ impl Platform {
     pub const fn space(self) -> usize {
         match self {
             Self::PlanePoint | Self::PlaneBody => 2,
-            _ => 3,
+            Self::TranslatingBody | Self::TurningBody | Self::FreeBody => 3,
         }
     }
 
@@ -95,7 +95,7 @@ impl Platform {
         match self {
             Self::TurningBody => Some([0, 1, 2]),
             Self::FreeBody => Some([3, 4, 5]),
-            _ => None,
+            Self::PlanePoint | Self::PlaneBody | Self::TranslatingBody => None,
         }
     }
 

@@ -2,7 +2,9 @@
 
 use crate::file::is_line;
 use crate::num::{Interval, Scalar, cross, dot};
-use crate::{Actuator, GREATEST, Leg, Limit, Platform, Robot, RobotError};
+use crate::{
+    Actuator, GREATEST, Leg, Limit, Platform, Prismatic, Revolute, Robot, RobotError, Spherical, Strut,
+};
 
 /// Parts that do not fit together.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -124,10 +126,10 @@ fn fault_of_leg(leg: &Leg, platform: Platform) -> Option<&'static str> {
     }
     let lengths = |all: &[Interval]| all.iter().all(|x| sane(x) && x.lo > 0.0);
     let fit = match &leg.actuator {
-        Actuator::Revolute { crank, rod } => lengths(&[*crank, *rod]),
-        Actuator::Prismatic { rod } => lengths(&[*rod]),
-        Actuator::Strut => true,
-        Actuator::Spherical { proximal, distal_cos } => {
+        Actuator::Revolute(Revolute { crank, rod }) => lengths(&[*crank, *rod]),
+        Actuator::Prismatic(Prismatic { rod }) => lengths(&[*rod]),
+        Actuator::Strut(Strut) => true,
+        Actuator::Spherical(Spherical { proximal, distal_cos }) => {
             is_circular(proximal)
                 && proximal.1.lo > 0.0
                 && sane(distal_cos)
@@ -153,23 +155,48 @@ fn is_circular((cos, sin): &(Interval, Interval)) -> bool {
     sane(cos) && sane(sin) && is_about(cos.square() + sin.square(), 1.0)
 }
 
+/// What a leg has that can be limited, and where it stands.
+pub struct Takes {
+    /// A driven angle; else a driven length.
+    pub angle: bool,
+    /// A driven length that is never negative.
+    pub positive: bool,
+    /// An angle between a crank and a rod.
+    pub elbow: bool,
+    /// A rod, or itself, that has a direction.
+    pub rod: bool,
+    /// Whether its links are arcs round the centre about which the platform turns.
+    pub on_sphere: bool,
+}
+
+/// What a leg of the kind has.
+pub fn takes(actuator: &Actuator) -> Takes {
+    let nothing = Takes { angle: false, positive: false, elbow: false, rod: false, on_sphere: false };
+    match actuator {
+        Actuator::Revolute(_) => Takes { angle: true, elbow: true, rod: true, ..nothing },
+        Actuator::Prismatic(_) => Takes { rod: true, ..nothing },
+        Actuator::Strut(_) => Takes { positive: true, rod: true, ..nothing },
+        Actuator::Spherical(_) => Takes { angle: true, on_sphere: true, ..nothing },
+    }
+}
+
 fn is_limit(limit: &Limit, actuator: &Actuator, space: usize) -> bool {
-    let revolute = matches!(actuator, Actuator::Revolute { .. });
+    let takes = takes(actuator);
     match limit {
-        Limit::ActuatorAngle { middle, half_cos } => {
-            actuator.is_angle() && is_circular(middle) && sane(half_cos)
-        }
+        Limit::ActuatorAngle { middle, half_cos } => takes.angle && is_circular(middle) && sane(half_cos),
         Limit::ActuatorLength { min, max } => {
-            let strut = matches!(actuator, Actuator::Strut);
-            !actuator.is_angle() && sane(min) && sane(max) && min.hi <= max.hi && (!strut || min.lo >= 0.0)
+            let least = if takes.positive { 0.0 } else { f64::NEG_INFINITY };
+            !takes.angle && sane(min) && sane(max) && min.hi <= max.hi && min.lo >= least
         }
-        Limit::Elbow { middle, half_cos } => revolute && space == 2 && is_circular(middle) && sane(half_cos),
+        Limit::Elbow { middle, half_cos } => {
+            takes.elbow && space == 2 && is_circular(middle) && sane(half_cos)
+        }
         Limit::SpatialElbow { min_cos, max_cos } => {
-            revolute && space == 3 && sane(min_cos) && sane(max_cos) && max_cos.hi <= min_cos.hi
+            takes.elbow && space == 3 && sane(min_cos) && sane(max_cos) && max_cos.hi <= min_cos.hi
         }
         Limit::BaseCone { axis, half_cos } | Limit::PlatformCone { axis, half_cos } => {
             let unit = axis.iter().all(sane) && is_about(dot(axis, axis), 1.0);
-            !matches!(actuator, Actuator::Spherical { .. }) && unit && sane(half_cos)
+            takes.rod && unit && sane(half_cos)
         }
     }
 }
@@ -209,7 +236,7 @@ mod tests {
         }
         let said = refusal(|robot| {
             robot.legs[0].actuator =
-                Actuator::Revolute { crank: Interval { lo: 9.0, hi: 8.0 }, rod: Interval::point(5.0) };
+                Revolute { crank: Interval { lo: 9.0, hi: 8.0 }, rod: Interval::point(5.0) }.into();
         });
         assert!(said.contains("or an empty range"), "{said}");
     }

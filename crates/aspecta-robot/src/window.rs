@@ -1,6 +1,6 @@
 //! The part of the pose space that holds the whole workspace.
 
-use super::{Actuator, Leg, Platform, Robot};
+use super::{Leg, Platform, Robot};
 use crate::num::Interval;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
@@ -174,21 +174,8 @@ fn angle_range(full_turn: bool) -> (f64, f64) {
 impl Leg {
     /// Bounds of the platform's coordinate `k` that this leg alone proves.
     fn reach(&self, k: usize, platform: Platform) -> (f64, f64) {
-        let (centre, radius) = match self.actuator {
-            Actuator::Revolute { crank, rod } => (self.anchor[k], crank + rod),
-            Actuator::Prismatic { rod } => {
-                let along = self.frame[0][k];
-                match self.length_range() {
-                    _ if along == Interval::point(0.0) => (self.anchor[k], rod),
-                    Some((min, max)) => (self.anchor[k] + min.hull(max) * along, rod),
-                    None => return (f64::NEG_INFINITY, f64::INFINITY),
-                }
-            }
-            Actuator::Strut => match self.length_range() {
-                Some((_, max)) => (self.anchor[k], max),
-                None => return (f64::NEG_INFINITY, f64::INFINITY),
-            },
-            Actuator::Spherical { .. } => return (f64::NEG_INFINITY, f64::INFINITY),
+        let Some((centre, radius)) = self.actuator.extent(self, k) else {
+            return (f64::NEG_INFINITY, f64::INFINITY);
         };
         let offset = if turns(platform) { self.arm_about_origin() } else { self.attachment[k] };
         let c = centre - offset;

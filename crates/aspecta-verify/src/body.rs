@@ -4,13 +4,14 @@
 //! coordinates; there are up to six legs and coordinates, and entries beyond are zero.
 
 mod chain;
+mod kinds;
 
 pub(super) use chain::Links;
+pub(super) use kinds::{joint, slope_per_root};
 
 use aspecta_robot::chart::Chart;
-use aspecta_robot::legs::equation;
 use aspecta_robot::num::{Interval, Jet, Scalar};
-use aspecta_robot::{Actuator, Leg, Limit, Platform, Robot};
+use aspecta_robot::{Leg, Limit, Platform, Robot};
 
 /// Most coordinates, and most legs.
 pub(super) const MOST: usize = 6;
@@ -165,30 +166,21 @@ impl<'a, T: Scalar, const D: usize> Body<'a, T, D> {
             }
             Platform::TurningBody => about(i),
             Platform::FreeBody if i >= D => about(i - D),
-            _ => unit(i),
+            Platform::PlanePoint | Platform::PlaneBody | Platform::TranslatingBody | Platform::FreeBody => {
+                unit(i)
+            }
         };
         let n = self.robot.dof();
         std::array::from_fn(|i| if i < n { into_frame(leg, &in_base(i)) } else { [zero; D] })
     }
 
-    /// H of leg j, given C − A in its frame: the discriminant of its equation. With d = (α, β, γ), f = k − a cos q − b sin q
-    /// has solutions where H = a² + b² − k² ≥ 0, and there ∂f/∂q = ±√H.
+    /// H of leg j, given C − A in its frame: the discriminant of its equation.
     pub(super) fn reach(&self, j: usize, d: &[T; D]) -> Option<T> {
         if let Some(own) = self.own_of(j) {
             // ∂f/∂q = −2L (C − A)_tangential, or sin a times it.
             return Some(own.span[1].scale(own.swing).square());
         }
-        let circle = |a: T, b: T, k: T| a.square() + b.square() - k.square();
-        match &self.robot.legs[j].actuator {
-            Actuator::Prismatic { rod } => {
-                Some((1..D).fold(T::constant(rod.square()), |rest, k| rest - d[k].square()))
-            }
-            Actuator::Strut => None,
-            actuator => {
-                let (a, b, k) = harmonic(actuator, d);
-                Some(circle(a, b, k))
-            }
-        }
+        kinds::reach(&self.robot.legs[j].actuator, d)
     }
 
     /// Leg j with q given, at C − A = `span`. Where the leg's own coordinates are used q is one of them, and `q` is not looked at.
@@ -202,7 +194,7 @@ impl<'a, T: Scalar, const D: usize> Body<'a, T, D> {
             None => (*span, velocities, q),
         };
         let jets: [Jet<T, 4>; D] = std::array::from_fn(|k| Jet::variable(d[k], k));
-        let f = equation(&leg.actuator, &jets, Jet::variable(at, 3));
+        let f = leg.actuator.equation(&jets, Jet::variable(at, 3));
         let slope = f.gradient[3];
         let limits = leg.limits.iter().map(|limit| self.margin(j, limit, span, q, slope)).collect();
         // ∂f/∂X by way of C − A.
@@ -222,11 +214,7 @@ impl<'a, T: Scalar, const D: usize> Body<'a, T, D> {
                 let (sin, cos) = self.crank(j, q);
                 cos.scale(middle.0) + sin.scale(middle.1) - constant(*half_cos)
             }
-            Limit::ActuatorLength { min, max } if leg.actuator == Actuator::Strut => {
-                let length2 = square(d);
-                (length2 - constant(min.square())) * (constant(max.square()) - length2)
-            }
-            Limit::ActuatorLength { min, max } => (q - constant(*min)) * (constant(*max) - q),
+            Limit::ActuatorLength { min, max } => kinds::length_margin(&leg.actuator, d, q, (*min, *max)),
             // ‖d‖² = L² + M² + 2LM cos ψ, ∂f/∂q = −2LM sin ψ.
             Limit::Elbow { middle, half_cos } => {
                 let (bend, both) = self.bend(j, d);
@@ -256,28 +244,12 @@ impl<'a, T: Scalar, const D: usize> Body<'a, T, D> {
 
     /// (2LM cos ψ, 2LM) of a revolute leg, ψ being the angle between crank and rod.
     pub(super) fn bend(&self, j: usize, d: &[T; D]) -> (T, Interval) {
-        let Actuator::Revolute { crank, rod } = self.robot.legs[j].actuator else {
-            return (T::constant(Interval::ENTIRE), Interval::ENTIRE);
-        };
-        (square(d) - T::constant(crank.square() + rod.square()), Interval::point(2.0) * crank * rod)
+        kinds::bend(&self.robot.legs[j].actuator, d)
     }
 
     /// The direction of the rod (of the strut), in the leg's frame.
     fn rod(&self, j: usize, d: &[T; D], q: T) -> [T; D] {
-        let mut rod = *d;
-        let length = match self.robot.legs[j].actuator {
-            Actuator::Revolute { crank, rod: length } => {
-                let (sin, cos) = self.crank(j, q);
-                (rod[0], rod[1]) = (rod[0] - cos.scale(crank), rod[1] - sin.scale(crank));
-                T::constant(length)
-            }
-            Actuator::Prismatic { rod: length } => {
-                rod[0] = rod[0] - q;
-                T::constant(length)
-            }
-            _ => q,
-        };
-        rod.map(|x| x / length)
+        kinds::rod(&self.robot.legs[j].actuator, d, q, || self.crank(j, q))
     }
 }
 
@@ -290,7 +262,7 @@ fn rotation<T: Scalar, const D: usize>(platform: Platform, y: &[T; MOST]) -> Opt
             (columns[0][0], columns[0][1]) = (cos, sin);
             (columns[1][0], columns[1][1]) = (-sin, cos);
         }
-        _ => {
+        Platform::PlanePoint | Platform::TranslatingBody | Platform::TurningBody | Platform::FreeBody => {
             let [roll, pitch, yaw] = platform.turns()?;
             let ((sr, cr), (sp, cp), (sy, cy)) = (y[roll].sin_cos(), y[pitch].sin_cos(), y[yaw].sin_cos());
             // R_z(yaw) R_y(pitch) R_x(roll), the rightmost factor first.
@@ -305,41 +277,4 @@ fn rotation<T: Scalar, const D: usize>(platform: Platform, y: &[T; MOST]) -> Opt
         }
     }
     Some(columns)
-}
-
-/// a, b and k of f = k − a cos q − b sin q, for legs whose q is an angle; entries of no meaning for others.
-fn harmonic<T: Scalar, const D: usize>(actuator: &Actuator, d: &[T; D]) -> (T, T, T) {
-    match actuator {
-        Actuator::Spherical { proximal: (cos, sin), distal_cos } => {
-            (-d[0].scale(*sin), -d[1].scale(*sin), d[D - 1].scale(*cos) - T::constant(*distal_cos))
-        }
-        Actuator::Revolute { crank, rod } => {
-            let twice = *crank + *crank;
-            let k = square(d) + T::constant(crank.square() - rod.square());
-            (d[0].scale(twice), d[1].scale(twice), k)
-        }
-        _ => (T::zero(), T::zero(), T::zero()),
-    }
-}
-
-/// q of a leg in posture s = `sign`, for all spans in `d`, H being in `reach`.
-///
-/// With (a, b) = ρ(cos θ, sin θ) the equation is k = ρ cos(q − θ), and ∂f/∂q = ρ sin(q − θ) = s√H: q is θ plus the angle of (k, s√H).
-pub(super) fn joint<const D: usize>(
-    actuator: &Actuator,
-    d: &[Interval; D],
-    reach: Option<Interval>,
-    sign: f64,
-) -> Interval {
-    let h = reach.map_or(Interval::point(0.0), |h| h.sqrt()) * Interval::point(sign);
-    match actuator {
-        Actuator::Prismatic { .. } => d[0] + h,
-        Actuator::Strut => square(d).sqrt(),
-        _ => {
-            let (a, b, k) = harmonic(actuator, d);
-            let anything = Interval::new(-Interval::PI.hi, Interval::PI.hi);
-            let angle = |c, s| Interval::angle(c, s).unwrap_or(anything);
-            angle(a, b) + angle(k, h)
-        }
-    }
 }

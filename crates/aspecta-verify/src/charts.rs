@@ -6,8 +6,7 @@ use super::place::{Coordinates, Place, Setting};
 use crate::certificate::Certificate;
 use aspecta_robot::chart::{Chain, Chart, Fold};
 use aspecta_robot::num::{Interval, Scalar, cross, dot};
-use aspecta_robot::work;
-use aspecta_robot::{Actuator, Platform, Robot, Window};
+use aspecta_robot::{Platform, Revolute, Robot, Window, work};
 
 /// The window of a chart, given that of the poses.
 pub(super) fn window_of(chart: &Chart, poses: &Window) -> Window {
@@ -66,8 +65,8 @@ pub(super) fn fault_of_fold(robot: &Robot, poses: &Window, fold: &Fold) -> Optio
     if !translations.into_iter().all(whole) {
         return Some("the chart of a fold, but a translation is held or cut by the window");
     }
-    let actuator = Actuator::Revolute { crank: fold.crank, rod: fold.rod };
-    if robot.legs[fold.leg].actuator != actuator {
+    let actuator = Revolute { crank: fold.crank, rod: fold.rod };
+    if robot.legs[fold.leg].actuator != actuator.into() {
         return Some("the lengths of the fold are not those of the robot's leg");
     }
     let widest = fold.axial.map_or(0.0, |(lo, hi)| lo.abs().max(hi.abs()));
@@ -193,7 +192,7 @@ pub(super) fn met_outside<const D: usize>(
         Chart::Fold(_) => 1..D,
         // The elbow's angle.
         Chart::Chain(Chain { bend: Some(_), .. }) => 1..2,
-        _ => 0..0,
+        Chart::Pose | Chart::Chain(_) => 0..0,
     };
     let classes = claims.inside | claims.undecided;
     let matters = |other: usize| {

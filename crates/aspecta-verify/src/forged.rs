@@ -3,9 +3,8 @@
 use super::*;
 use crate::certificate::Scale;
 use crate::certificate::{Claim, Entry, Leaf, Sheet as SheetOfFile, Tree};
-use aspecta_robot::WorkingMode;
 use aspecta_robot::chart::Fold;
-use aspecta_robot::{Actuator, Leg, Platform, Robot, catalogue};
+use aspecta_robot::{Actuator, Leg, Platform, Revolute, Robot, WorkingMode, catalogue};
 
 fn sphere() -> Robot {
     Robot::from_toml(include_str!("../../tests/fixtures/sphere.toml"), "sphere.toml").unwrap()
@@ -96,7 +95,7 @@ fn frames_and_anchors_are_those_of_a_robot() {
 fn a_fold_in_a_slice_that_holds_a_translation() {
     let legs = [[0.0, 0.0], [9.0, 0.0]].map(|anchor| Leg::revolute(anchor, [0.0, 0.0], 6.0, 6.0));
     let robot = Robot::new("folding", Platform::PlanePoint, legs.to_vec()).unwrap();
-    let Actuator::Revolute { crank, rod } = robot.legs[0].actuator else { unreachable!() };
+    let Actuator::Revolute(Revolute { crank, rod }) = robot.legs[0].actuator else { unreachable!() };
     let leaf = Leaf { undecided: 3, ..Leaf::default() };
     let mut forged =
         one_leaf(&robot, &[(0, 1.0)], robot.working_modes()[0], leaf, Claim { low: 0, high: None });

@@ -1,7 +1,7 @@
 //! An independent check of certificates: small, slow and plain.
 //!
 //! Of what computes a certificate this module uses [`Interval`] and [`Jet`](aspecta_robot::num::Jet) arithmetic, the leg equation
-//! ([`aspecta_robot::legs::equation`]), the types that describe robots, windows ([`Robot::slice`](aspecta_robot::Robot::slice)) and charts, and
+//! ([`aspecta_robot::Actuator::equation`]), the types that describe robots, windows ([`Robot::slice`](aspecta_robot::Robot::slice)) and charts, and
 //! nothing else. It differentiates the leg equation, cuts boxes until plain enclosures and mean values decide, and counts.
 //!
 //! # Theorem
@@ -37,6 +37,9 @@
 //! # What is taken for granted
 //! The arithmetic of the machine and of [`Interval`]; that the leg equation is that of the robot; that a window from
 //! [`Robot::slice`](aspecta_robot::Robot::slice) holds the workspace. A strut of length 0 has det A = 0 and so belongs to no aspect.
+
+// A variant that is added leads to every place that must decide about it.
+#![warn(clippy::wildcard_enum_match_arm)]
 
 mod body;
 mod cells;

@@ -1,13 +1,12 @@
 //! What intervals prove of one box of a chart, leg by leg.
 
-use super::body::{Body, LegState, Links, MOST, joint};
+use super::body::{Body, LegState, Links, MOST, joint, slope_per_root};
 use super::in_mode::InMode;
 use crate::certificate::Scale;
 use arrayvec::ArrayVec;
 use aspecta_robot::AXES;
 use aspecta_robot::WorkingMode;
 use aspecta_robot::chart::{Bend, Chain, Chart, Fold};
-use aspecta_robot::legs::equation;
 use aspecta_robot::num::{Interval, Jet, Scalar};
 use aspecta_robot::{Actuator, Robot, Window};
 use std::cell::OnceCell;
@@ -202,9 +201,7 @@ impl<'a, const D: usize> Place<'a, D> {
         let mut over = self.over.leg(j, &span.over, q);
         let at_middle = self.at_middle.leg(j, &span.at_middle, found.middle);
         if self.setting.has_root(j) {
-            // |B_jj| is √H, twice that for prismatic legs.
-            let factor = if matches!(actuator, Actuator::Prismatic { .. }) { 2.0 } else { 1.0 };
-            let root = reach.sqrt() * Interval::point(factor * sign);
+            let root = reach.sqrt() * Interval::point(slope_per_root(actuator) * sign);
             over.slope.value = over.slope.value.meet(root);
         }
         let Joint { q, middle, loose, rate } = found;
@@ -225,7 +222,7 @@ impl<'a, const D: usize> Place<'a, D> {
         let narrow: [Interval; D] = std::array::from_fn(|k| self.range(&over[k], at_middle[k], None));
         let two = actuator.postures() == 2;
         let mut q = joint(actuator, &narrow, two.then_some(reach), sign);
-        let f = equation(actuator, over, Function::variable(q, OWN));
+        let f = actuator.equation(over, Function::variable(q, OWN));
         let slope = f.gradient[OWN];
         // A mean value needs the slope on the way from the middle, which may be in another part of H_j.
         let in_part = reach != self.reach[j];

@@ -8,7 +8,7 @@ use crate::aspect::{Options, analyze};
 use crate::certificate::{Claim, Entry, Join, Leaf};
 use crate::paving::{Budget, ClassSet};
 use aspecta_robot::num::Scalar;
-use aspecta_robot::{Actuator, Leg as RobotLeg, Limit, Platform, Robot, catalogue};
+use aspecta_robot::{Leg as RobotLeg, Limit, Platform, Revolute, Robot, catalogue};
 use proptest::prelude::*;
 use std::sync::LazyLock;
 use std::sync::atomic::AtomicBool;
@@ -234,17 +234,14 @@ fn covered_leaves_are_covered() {
 #[test]
 fn another_robot_has_other_aspects() {
     refuted(&COARSE, "the window is not the one", |c| {
-        c.robot.legs[0].actuator =
-            Actuator::Revolute { crank: Interval::point(8.5), rod: Interval::point(5.0) };
+        c.robot.legs[0].actuator = Revolute { crank: Interval::point(8.5), rod: Interval::point(5.0) }.into();
     });
     // As long in all as before: the same window.
     refuted(&COARSE, "claimed", |c| {
-        c.robot.legs[0].actuator =
-            Actuator::Revolute { crank: Interval::point(7.5), rod: Interval::point(5.5) };
+        c.robot.legs[0].actuator = Revolute { crank: Interval::point(7.5), rod: Interval::point(5.5) }.into();
     });
     refuted(&FOLDED, "lengths of the fold", |c| {
-        c.robot.legs[0].actuator =
-            Actuator::Revolute { crank: Interval::point(6.5), rod: Interval::point(5.5) };
+        c.robot.legs[0].actuator = Revolute { crank: Interval::point(6.5), rod: Interval::point(5.5) }.into();
     });
     refuted(&COARSE, "the window is not the one", |c| c.window.ranges[0].0 += 1.0);
 }

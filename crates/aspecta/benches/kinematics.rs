@@ -1,7 +1,8 @@
 //! Inverse and direct models and Jacobians. Run `cargo bench --bench kinematics`.
 
+use aspecta::Kinematics;
 use aspecta::num::Interval;
-use aspecta::robot::{Actuator, Frame, Leg, Platform, Robot, point};
+use aspecta::robot::{Actuator, Frame, Leg, Platform, Revolute, Robot, point};
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 
@@ -39,7 +40,8 @@ fn delta() -> Robot {
     let leg = |k: usize| {
         let (s, c) = (k as f64 * std::f64::consts::TAU / 3.0).sin_cos();
         let frame: Frame = [[c, s, 0.0], [0.0, 0.0, -1.0], [-s, c, 0.0]].map(point);
-        let actuator = Actuator::Revolute { crank: Interval::decimal(0.2), rod: Interval::decimal(0.51) };
+        let actuator =
+            Actuator::Revolute(Revolute { crank: Interval::decimal(0.2), rod: Interval::decimal(0.51) });
         let at = |r: f64| point([r * c, r * s, 0.0]);
         Leg { anchor: at(0.2), attachment: at(0.05), frame, actuator, limits: Vec::new() }
     };

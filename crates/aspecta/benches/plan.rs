@@ -2,6 +2,7 @@
 //!
 //! Random pairs of poses in one mode, those that can be joined; aspects and boxes are loaded.
 
+use aspecta::Kinematics;
 use aspecta::aspect::{Options, analyze};
 use aspecta::kinematics::WorkingMode;
 use aspecta::motion::explore::{self, Effort};

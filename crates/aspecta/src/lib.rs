@@ -6,6 +6,9 @@
 //! Data flows one way: [`robot`] → [`kinematics`] → [`paving`] → [`aspect`] → [`domain`] → [`motion`].
 //! Beside it stands [`verify`], which shares next to nothing with the rest and checks what [`certificate`]s claim.
 
+// A variant that is added leads to every place that must decide about it.
+#![warn(clippy::wildcard_enum_match_arm)]
+
 pub mod aspect;
 pub mod domain;
 pub mod motion;
@@ -14,6 +17,6 @@ pub mod paving;
 pub use aspecta_kinematics as kinematics;
 pub use aspecta_kinematics::Kinematics;
 pub use aspecta_robot as robot;
-pub use aspecta_robot::num;
+pub use aspecta_robot::{legs, num};
 pub use aspecta_verify as verify;
 pub use aspecta_verify::certificate;

@@ -6,7 +6,7 @@ use aspecta::aspect::{Analysis, DetSign, Options, Place, Reachable, analyze};
 use aspecta::kinematics::WorkingMode;
 use aspecta::num::Interval;
 use aspecta::paving::{Budget, Control};
-use aspecta::robot::{Actuator, Leg, Platform, Robot, catalogue};
+use aspecta::robot::{Actuator, Leg, Platform, Revolute, Robot, catalogue};
 use std::collections::{BTreeMap, HashSet, VecDeque};
 use std::f64::consts::{PI, TAU};
 
@@ -516,7 +516,7 @@ fn the_workspace_has_the_area_of_two_annuli_cut() {
 fn toleranced_lengths_certify_less() {
     let mut robot = five_bar();
     for leg in &mut robot.legs {
-        if let Actuator::Revolute { crank, rod } = &mut leg.actuator {
+        if let Actuator::Revolute(Revolute { crank, rod }) = &mut leg.actuator {
             let wide = |x: Interval| Interval::new(x.lo - 1e-3, x.hi + 1e-3);
             (*crank, *rod) = (wide(*crank), wide(*rod));
         }

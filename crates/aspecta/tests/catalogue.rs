@@ -2,7 +2,7 @@
 
 use aspecta::kinematics::Solution;
 use aspecta::num::Interval;
-use aspecta::robot::{Actuator, BASE_FRAME, Platform, Robot, catalogue};
+use aspecta::robot::{Actuator, BASE_FRAME, Platform, Revolute, Robot, catalogue};
 use nalgebra::{Matrix6, Rotation3, Vector6};
 use proptest::prelude::RngExt;
 use proptest::test_runner::{RngAlgorithm, TestRng};
@@ -142,8 +142,9 @@ fn within(x: Interval, value: f64) -> bool {
 fn the_papers_robots_have_the_papers_figures() {
     let five_bar = robot("five-bar");
     let links: Vec<_> = five_bar.legs.iter().map(|l| (l.anchor[0].lo, l.actuator)).collect();
-    let revolute =
-        |crank, rod| Actuator::Revolute { crank: Interval::point(crank), rod: Interval::point(rod) };
+    let revolute = |crank, rod| {
+        Actuator::Revolute(Revolute { crank: Interval::point(crank), rod: Interval::point(rod) })
+    };
     assert_eq!(links, [(0.0, revolute(8.0, 5.0)), (9.0, revolute(5.0, 8.0))]);
     let rrr = robot("3-rrr");
     let q1 = rrr.inverse_in(&[-15.468, 0.781, 0.073], "+++".parse().unwrap()).unwrap().unwrap();

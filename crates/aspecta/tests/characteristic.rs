@@ -1,5 +1,6 @@
 //! Boundaries of aspects and characteristic surfaces (Definition 9), judged by formulas and counts of their own.
 
+use aspecta::Kinematics;
 use aspecta::aspect::{Analysis, AspectClass, DetSign, Options, Place, analyze};
 use aspecta::domain::boundary::{Boundary, BoundaryError, Face, Simplex};
 use aspecta::domain::characteristic::{Characteristic, CharacteristicError};

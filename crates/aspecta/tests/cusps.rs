@@ -1,5 +1,6 @@
 //! Cusps against brute force on closed forms that share nothing with the library, and against the direct model.
 
+use aspecta::Kinematics;
 use aspecta::domain::cusps::{Cusp, CuspError, Cusps, Doubt, Options, Proof, cusp_curves, cusps};
 use aspecta::num::Interval;
 use aspecta::paving::Control;

@@ -8,7 +8,7 @@ use aspecta::kinematics::placement::Placement;
 use aspecta::kinematics::{DirectSolutions, KinematicsError, Solution};
 use aspecta::num::Interval;
 use aspecta::robot::legs::equation;
-use aspecta::robot::{Actuator, BASE_FRAME, Leg, Platform, Robot, point};
+use aspecta::robot::{Actuator, BASE_FRAME, Leg, Platform, Prismatic, Revolute, Robot, Strut, point};
 use nalgebra::DMatrix;
 use random::{Case, Spread, case};
 use std::f64::consts::{PI, TAU};
@@ -163,7 +163,7 @@ fn the_3_rpr_of_innocenti_and_parenti_castelli_has_six_poses() {
 /// f(X, q) of a planar robot, by the leg equations.
 fn equations(robot: &Robot, x: &[f64], q: &[f64]) -> Vec<f64> {
     let placement = Placement::<f64, 2>::at(robot.platform, x);
-    let f = |(leg, q): (&Leg, &f64)| equation(&leg.actuator, &placement.span(leg, &placement.arm(leg)), *q);
+    let f = |(leg, q): (&Leg, &f64)| leg.actuator.equation(&placement.span(leg, &placement.arm(leg)), *q);
     robot.legs.iter().zip(q).map(f).collect()
 }
 
@@ -196,8 +196,10 @@ fn circle(leg: &Leg, q: f64) -> ([f64; 2], f64) {
         std::array::from_fn(|k| a[k] + x * leg.frame[0][k].mid() + y * leg.frame[1][k].mid())
     };
     match leg.actuator {
-        Actuator::Revolute { crank, rod } => (along(crank.mid() * q.cos(), crank.mid() * q.sin()), rod.mid()),
-        Actuator::Prismatic { rod } => (along(q, 0.0), rod.mid()),
+        Actuator::Revolute(Revolute { crank, rod }) => {
+            (along(crank.mid() * q.cos(), crank.mid() * q.sin()), rod.mid())
+        }
+        Actuator::Prismatic(Prismatic { rod }) => (along(q, 0.0), rod.mid()),
         _ => (a, q),
     }
 }
@@ -444,7 +446,7 @@ fn in_line(x: [f64; 3]) -> Robot {
         anchor: point([x, 0.0, 0.0]),
         attachment: point([0.0; 3]),
         frame: BASE_FRAME,
-        actuator: Actuator::Strut,
+        actuator: Actuator::Strut(Strut),
         limits: Vec::new(),
     };
     Robot::new("in-line", Platform::TranslatingBody, x.map(leg).to_vec()).unwrap()

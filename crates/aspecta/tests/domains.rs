@@ -1,5 +1,6 @@
 //! Basic regions, coincident components and uniqueness domains.
 
+use aspecta::Kinematics;
 use aspecta::aspect::{Analysis, DetSign, Options, analyze};
 use aspecta::domain::{DomainError, DomainOptions, Domains, domains};
 use aspecta::paving::{Budget, Control};

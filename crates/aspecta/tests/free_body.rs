@@ -4,7 +4,7 @@ use aspecta::Kinematics;
 use aspecta::aspect::{Analysis, AnalysisError, Options, Place, analyze};
 use aspecta::kinematics::{Solution, WorkingMode};
 use aspecta::paving::{Budget, Control};
-use aspecta::robot::{Actuator, Robot, catalogue};
+use aspecta::robot::{Actuator, Revolute, Robot, catalogue};
 use nalgebra::{DMatrix, Rotation3, Vector3};
 use std::f64::consts::FRAC_PI_2;
 
@@ -60,8 +60,8 @@ fn det_by_hand(robot: &Robot, pose: &[f64], q: &[f64]) -> f64 {
         let arm = turn * vector(&leg.attachment);
         let [u, v, _] = leg.frame.each_ref().map(vector);
         let elbow = match leg.actuator {
-            Actuator::Revolute { crank, .. } => crank.mid() * (q[j].cos() * u + q[j].sin() * v),
-            Actuator::Prismatic { .. } => q[j] * u,
+            Actuator::Revolute(Revolute { crank, .. }) => crank.mid() * (q[j].cos() * u + q[j].sin() * v),
+            Actuator::Prismatic(_) => q[j] * u,
             _ => Vector3::zeros(),
         };
         let rod = (origin + arm - vector(&leg.anchor) - elbow).normalize();

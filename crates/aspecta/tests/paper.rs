@@ -1,5 +1,6 @@
 //! The numbers of the paper.
 
+use aspecta::Kinematics;
 use aspecta::motion::{ProfilePoint, check_path};
 use aspecta::robot::{Leg, Platform, Robot};
 

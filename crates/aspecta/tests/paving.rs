@@ -10,7 +10,7 @@ use aspecta::kinematics::modal::Constraint;
 use aspecta::kinematics::path::curve::{Along, Curve, along};
 use aspecta::num::Interval;
 use aspecta::paving::{Budget, Control, Mark, Node, Paving, Stop};
-use aspecta::robot::{Actuator, Leg, Limit, Platform, Robot, catalogue};
+use aspecta::robot::{Actuator, Leg, Limit, Platform, Revolute, Robot, Strut, catalogue};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
@@ -202,12 +202,12 @@ fn margin(limit: &Limit, leg: &Leg, platform: Platform, x: &[f64], q: f64) -> f6
     let frame: [Vector; 3] = std::array::from_fn(|k| mid(&leg.frame[k]));
     let out = |v: Vector| -> Vector { std::array::from_fn(|k| (0..3).map(|i| v[i] * frame[i][k]).sum()) };
     let (driver, rod) = match leg.actuator {
-        Actuator::Revolute { crank, .. } => {
+        Actuator::Revolute(Revolute { crank, .. }) => {
             let u = out([q.cos(), q.sin(), 0.0]);
             let b: Vector = std::array::from_fn(|k| mid(&leg.anchor)[k] + crank.mid() * u[k]);
             (u, unit(&sub(&c, &b)))
         }
-        Actuator::Prismatic { .. } => {
+        Actuator::Prismatic(_) => {
             let b: Vector = std::array::from_fn(|k| mid(&leg.anchor)[k] + q * frame[0][k]);
             (frame[0], unit(&sub(&c, &b)))
         }
@@ -247,7 +247,7 @@ fn recomputed(robot: &Robot, mode: WorkingMode, x: &[f64]) -> (f64, f64) {
     let jacobians = robot.jacobians(x, &q).unwrap();
     if least > NOISE {
         assert!(jacobians.residual < 1e-6, "{mode} {x:?} {q:?}: {}", jacobians.residual);
-        let strut = |j: usize| robot.legs[j].actuator == Actuator::Strut;
+        let strut = |j: usize| robot.legs[j].actuator == Actuator::Strut(Strut);
         assert!((0..q.len()).all(|j| strut(j) || (jacobians.b[j] > 0.0) == (mode.sign(j) > 0)));
     }
     let rows: f64 = jacobians.a.iter().map(|r| r.iter().map(|a| a * a).sum::<f64>().sqrt()).product();

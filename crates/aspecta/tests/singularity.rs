@@ -1,11 +1,14 @@
 //! Singularities (Definitions 3 and 4) against the geometry that defines them.
 
+use aspecta::Kinematics;
 use aspecta::kinematics::KinematicsError;
 use aspecta::kinematics::placement::Placement;
 use aspecta::kinematics::{SINGULAR, Singularity, State};
 use aspecta::num::Interval;
 use aspecta::robot::legs::equation;
-use aspecta::robot::{Actuator, BASE_FRAME, Leg, Platform, Robot, point};
+use aspecta::robot::{
+    Actuator, BASE_FRAME, Leg, Platform, Prismatic, Revolute, Robot, Spherical, Strut, point,
+};
 use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -61,15 +64,16 @@ fn spatial(platform: Platform, actuator: impl Fn(usize) -> Actuator) -> Robot {
 /// One robot of each platform, with every kind of actuator.
 fn one_of_each() -> Vec<Robot> {
     let length = Interval::decimal;
-    let revolute = Actuator::Revolute { crank: length(1.5), rod: length(2.5) };
-    let prismatic = Actuator::Prismatic { rod: length(2.0) };
-    let spherical = Actuator::Spherical { proximal: (length(0.6), length(0.8)), distal_cos: length(0.28) };
+    let revolute = Actuator::Revolute(Revolute { crank: length(1.5), rod: length(2.5) });
+    let prismatic = Actuator::Prismatic(Prismatic { rod: length(2.0) });
+    let spherical =
+        Actuator::Spherical(Spherical { proximal: (length(0.6), length(0.8)), distal_cos: length(0.28) });
     vec![
         five_bar(),
         three_rrr([0.0; 2], 0.0, 1.0, [0, 1, 2]),
         spatial(Platform::TranslatingBody, |k| if k == 0 { revolute } else { prismatic }),
         spatial(Platform::TurningBody, |_| spherical),
-        spatial(Platform::FreeBody, |k| [Actuator::Strut, revolute, prismatic][k % 3]),
+        spatial(Platform::FreeBody, |k| [Actuator::Strut(Strut), revolute, prismatic][k % 3]),
     ]
 }
 
@@ -77,8 +81,7 @@ fn one_of_each() -> Vec<Robot> {
 fn closure(robot: &Robot, pose: &[f64], q: &[f64]) -> Vec<f64> {
     fn at<const D: usize>(robot: &Robot, pose: &[f64], q: &[f64]) -> Vec<f64> {
         let placement = Placement::<f64, D>::at(robot.platform, pose);
-        let f =
-            |(leg, q): (&Leg, &f64)| equation(&leg.actuator, &placement.span(leg, &placement.arm(leg)), *q);
+        let f = |(leg, q): (&Leg, &f64)| leg.actuator.equation(&placement.span(leg, &placement.arm(leg)), *q);
         robot.legs.iter().zip(q).map(f).collect()
     }
     if robot.platform.space() == 2 { at::<2>(robot, pose, q) } else { at::<3>(robot, pose, q) }

@@ -1,8 +1,9 @@
 //! Slices: held against configurations written out by hand, against pavings of the whole robot and against each other.
 
+use aspecta::Kinematics;
 use aspecta::aspect::{Analysis, AnalysisError, DetSign, Options, Place, analyze};
 use aspecta::paving::{Budget, Control, Stop};
-use aspecta::robot::{Leg, Platform, Robot, SliceError, catalogue};
+use aspecta::robot::{Leg, Platform, Prismatic, Robot, SliceError, catalogue};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -475,7 +476,8 @@ fn held_is_not_empty() {
 fn a_held_coordinate_needs_no_bounds() {
     let leg = |y: f64| {
         let mut leg = Leg::revolute([0.0, y], [0.0, 0.0], 1.0, 5.0);
-        leg.actuator = aspecta::robot::Actuator::Prismatic { rod: aspecta::num::Interval::point(5.0) };
+        leg.actuator =
+            aspecta::robot::Actuator::Prismatic(Prismatic { rod: aspecta::num::Interval::point(5.0) });
         leg
     };
     let robot = Robot::new("sliders", Platform::PlanePoint, vec![leg(0.0), leg(4.0)]).unwrap();

@@ -8,7 +8,7 @@ mod split_mix;
 
 use aspecta::kinematics::{DirectSolutions, KinematicsError};
 use aspecta::num::Interval;
-use aspecta::robot::{Actuator, Leg, Platform, Robot};
+use aspecta::robot::{Actuator, Leg, Platform, Prismatic, Revolute, Robot, Spherical};
 use nalgebra::{Matrix3, Vector3};
 use split_mix::Random;
 use std::f64::consts::{PI, TAU};
@@ -113,8 +113,8 @@ fn cranks_and_sliders_too() {
             leg.frame = [u, v, u.cross(&v)].map(|axis| <[f64; 3]>::from(axis).map(Interval::point));
             let [one, three] = [1.0, 6.0].map(Interval::point);
             leg.actuator = match case % 2 {
-                0 => Actuator::Revolute { crank: one, rod: three },
-                _ => Actuator::Prismatic { rod: three },
+                0 => Actuator::Revolute(Revolute { crank: one, rod: three }),
+                _ => Actuator::Prismatic(Prismatic { rod: three }),
             };
         }
         // Cranks of length 1 and rods of 6 close almost nowhere: choose the rods by the pose.
@@ -126,7 +126,8 @@ fn cranks_and_sliders_too() {
         for k in 0..6 {
             let rod = Interval::point(placed(&robot.legs[k]).norm() + 0.1);
             match &mut robot.legs[k].actuator {
-                Actuator::Revolute { rod: length, .. } | Actuator::Prismatic { rod: length } => *length = rod,
+                Actuator::Revolute(Revolute { rod: length, .. })
+                | Actuator::Prismatic(Prismatic { rod: length }) => *length = rod,
                 _ => unreachable!(),
             }
         }
@@ -288,10 +289,10 @@ fn spherical(random: &mut Random) -> Robot {
         leg.attachment = <[f64; 3]>::from(end).map(Interval::point);
         let (s, c) = random.within(0.4, 2.7).sin_cos();
         let distal = random.within(0.4, 2.7).cos();
-        leg.actuator = Actuator::Spherical {
+        leg.actuator = Actuator::Spherical(Spherical {
             proximal: (Interval::point(c), Interval::point(s)),
             distal_cos: Interval::point(distal),
-        };
+        });
     }
     robot
 }
@@ -301,7 +302,9 @@ fn spherical(random: &mut Random) -> Robot {
 fn sign_changes(robot: &Robot, q: &[f64], samples: usize) -> usize {
     let leg = |k: usize| {
         let leg = &robot.legs[k];
-        let Actuator::Spherical { proximal: (c, s), distal_cos } = leg.actuator else { unreachable!() };
+        let Actuator::Spherical(Spherical { proximal: (c, s), distal_cos }) = leg.actuator else {
+            unreachable!()
+        };
         let axis = |i: usize| Vector3::from(leg.frame[i].map(Interval::mid));
         let w = axis(2) * c.mid() + (axis(0) * q[k].cos() + axis(1) * q[k].sin()) * s.mid();
         (w, Vector3::from(leg.attachment.map(Interval::mid)), distal_cos.mid())

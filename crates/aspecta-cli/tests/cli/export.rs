@@ -1,8 +1,9 @@
 //! `aspecta export`: models for MuJoCo. That they move as they should is what `referee/mujoco/run` tests.
 
 use crate::{aspecta, output, stdout};
+use aspecta::legs::{Dimension, Size};
 use aspecta::num::Interval;
-use aspecta::robot::{Actuator, Robot, catalogue};
+use aspecta::robot::{Robot, catalogue};
 use roxmltree::{Document, Node};
 use std::fs;
 use std::path::PathBuf;
@@ -102,17 +103,16 @@ fn links_are_as_long_as_they_should_be_and_loops_are_closed() {
             let attachment = named(&document, "site", &attachment);
             near(distance(place(end), place(attachment)), 0.0);
             let q = numbers(named(&document, "joint", &format!("q{k}")), "ref")[0];
-            match leg.actuator {
-                Actuator::Revolute { crank, rod } => {
-                    near(length(&document, &format!("crank{k}")), crank.mid());
-                    near(length(&document, &format!("rod{k}")), rod.mid());
-                }
-                Actuator::Prismatic { rod } => near(length(&document, &format!("rod{k}")), rod.mid()),
-                Actuator::Strut => near(distance(place(end), leg.anchor.map(Interval::mid)), q),
-                Actuator::Spherical { proximal, distal_cos } => {
-                    let chord = |cos: f64| (2.0 - 2.0 * cos).sqrt();
-                    near(length(&document, &format!("proximal{k}")), chord(proximal.0.mid()));
-                    near(length(&document, &format!("distal{k}")), chord(distal_cos.mid()));
+            for Dimension { name, size } in leg.actuator.dimensions(leg) {
+                match size {
+                    Some(Size::Length(wanted)) => near(length(&document, &format!("{name}{k}")), wanted),
+                    // Links on a sphere are drawn straight.
+                    Some(Size::Angle(angle)) => {
+                        near(length(&document, &format!("{name}{k}")), 2.0 * (0.5 * angle).sin());
+                    }
+                    Some(Size::Lengths(..)) | None => {
+                        near(distance(place(end), leg.anchor.map(Interval::mid)), q);
+                    }
                 }
             }
         }

@@ -6,8 +6,9 @@
 use super::chain;
 use super::{LEAST, largest_apart};
 use aspecta_robot::chart::{Bend, Chain};
+use aspecta_robot::legs::Spherical;
 use aspecta_robot::num::{Interval, dot};
-use aspecta_robot::{Actuator, Robot, Window};
+use aspecta_robot::{Robot, Window};
 
 /// How near (rad) v comes to the motor's axis if the leg counts as one that folds: else the boxes round the nearest orientations would have to be very small.
 const NEAR: f64 = 0.05;
@@ -52,10 +53,8 @@ struct Cap {
 impl Cap {
     /// The folds of a leg, charted to `half_width` of the elbow.
     fn of_leg(robot: &Robot, leg: usize, half_width: f64) -> Vec<Self> {
-        let Actuator::Spherical { proximal: (cos_a, sin_a), distal_cos: cos_b } = robot.legs[leg].actuator
-        else {
-            return Vec::new();
-        };
+        let Some(links) = robot.legs[leg].actuator.as_spherical() else { return Vec::new() };
+        let &Spherical { proximal: (cos_a, sin_a), distal_cos: cos_b } = links;
         let (a, b) = (sin_a.mid().atan2(cos_a.mid()), cos_b.mid().acos());
         let cap = |back: bool| {
             let (side, least) =
@@ -103,7 +102,7 @@ mod tests {
             robot.legs.iter_mut().zip([[0.6, -0.8, 0.0], [0.0, 0.28, -0.96], [-1.0, 0.0, 0.0]])
         {
             let (cos, sin) = (Interval::point(0.0), Interval::point(1.0));
-            leg.actuator = Actuator::Spherical { proximal: (cos, sin), distal_cos: cos };
+            leg.actuator = Spherical { proximal: (cos, sin), distal_cos: cos }.into();
             leg.attachment = joint.map(Interval::point);
         }
         robot

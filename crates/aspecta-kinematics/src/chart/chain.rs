@@ -4,7 +4,7 @@ use super::Folded;
 use crate::modal::{LegClosure, closures};
 use crate::placement::{Placement, into_frame, out_of_frame, roll_pitch_yaw};
 use aspecta_robot::chart::{Bend, Chain};
-use aspecta_robot::legs::Closure;
+use aspecta_robot::legs::{Closure, Spherical};
 use aspecta_robot::num::{Interval, Scalar, dot, each};
 use aspecta_robot::{Actuator, Platform, Robot, Window};
 
@@ -18,7 +18,7 @@ pub(super) fn cover<T: Scalar, const D: usize>(bend: &Bend, actuator: &Actuator,
 
 /// (cos, sin) of the angles of a spherical leg's links, a and b.
 fn angles_of(actuator: &Actuator) -> [(Interval, Interval); 2] {
-    let Actuator::Spherical { proximal, distal_cos } = *actuator else {
+    let Some(&Spherical { proximal, distal_cos }) = actuator.as_spherical() else {
         unreachable!("a platform that turns about a point has spherical legs only");
     };
     [proximal, (distal_cos, (Interval::point(1.0) - distal_cos.square()).sqrt())]
@@ -27,7 +27,7 @@ fn angles_of(actuator: &Actuator) -> [(Interval, Interval); 2] {
 /// The chart for a platform that turns about a point, if `window` holds all its orientations.
 pub(super) fn of(robot: &Robot, window: &Window) -> Option<Chain> {
     let whole = window.cut.iter().all(|&cut| cut == (false, false)) && window.held().next().is_none();
-    let spherical = matches!(robot.legs.first()?.actuator, Actuator::Spherical { .. });
+    let spherical = robot.legs.first()?.actuator.as_spherical().is_some();
     (robot.platform == Platform::TurningBody && spherical && whole).then_some(Chain { leg: 0, bend: None })
 }
 
@@ -135,7 +135,6 @@ mod tests {
     use crate::chart::Chart;
     use crate::modal::ModalRows;
     use aspecta_robot::WorkingMode;
-    use aspecta_robot::legs::equation;
     use aspecta_robot::num::Random;
 
     const SPHERE: &str = include_str!("../../../tests/fixtures/sphere.toml");
@@ -157,7 +156,7 @@ mod tests {
                     (0..9).all(|k| (dots(k / 3, k % 3) - f64::from(u8::from(k / 3 == k % 3))).abs() < 1e-14)
                 );
                 let own = &legs[leg];
-                assert!(equation(&robot.legs[leg].actuator, &own.span, y[0]).abs() < 1e-14);
+                assert!(robot.legs[leg].actuator.equation(&own.span, y[0]).abs() < 1e-14);
                 let b = own.fold.unwrap().b;
                 assert!(b * y[1].sin() >= 0.0);
                 // The same at the pose, with every q from its elimination.

@@ -5,9 +5,9 @@ use crate::modal::{LegClosure, closures};
 use crate::placement::{Placement, out_of_frame};
 use arrayvec::ArrayVec;
 use aspecta_robot::chart::Fold;
-use aspecta_robot::legs::{Closure, sum_of_squares};
+use aspecta_robot::legs::{Closure, Revolute, sum_of_squares};
 use aspecta_robot::num::{Interval, Scalar, each};
-use aspecta_robot::{Actuator, Platform, Robot, Window};
+use aspecta_robot::{Platform, Robot, Window};
 
 /// [`super::Coordinates::at`].
 pub(super) fn at<T: Scalar, const D: usize, const N: usize>(
@@ -98,7 +98,9 @@ struct Place {
 impl Place {
     /// The folds of a leg, charted to about `size` cranks from the axis.
     fn of_leg(robot: &Robot, leg: usize, size: f64) -> Vec<Self> {
-        let Actuator::Revolute { crank, rod } = robot.legs[leg].actuator else { return Vec::new() };
+        let Some(&Revolute { crank, rod }) = robot.legs[leg].actuator.as_revolute() else {
+            return Vec::new();
+        };
         let (l, m) = (crank.mid(), rod.mid());
         let p = size * l / m;
         if robot.platform.space() == 2 {
@@ -140,7 +142,10 @@ impl Place {
             let leg = &robot.legs[place.fold.leg];
             match robot.platform {
                 Platform::FreeBody => Placement::<f64, 3>::at(robot.platform, &still).arm(leg),
-                _ => leg.attachment.map(|c| c.mid()),
+                Platform::PlanePoint
+                | Platform::PlaneBody
+                | Platform::TranslatingBody
+                | Platform::TurningBody => leg.attachment.map(|c| c.mid()),
             }
         };
         let between = |a: [f64; 3], b: [f64; 3]| std::array::from_fn::<f64, 3, _>(|k| a[k] - b[k]);
@@ -148,7 +153,9 @@ impl Place {
         let (base, body) = (between(centre(self), centre(other)), between(arm(self), arm(other)));
         let distance = match robot.platform {
             Platform::PlaneBody => (norm(base) - norm(body)).abs(),
-            _ => norm(between(base, body)),
+            Platform::PlanePoint | Platform::TranslatingBody | Platform::TurningBody | Platform::FreeBody => {
+                norm(between(base, body))
+            }
         };
         distance > 1.05 * (self.radius + other.radius)
     }

@@ -111,7 +111,10 @@ pub fn cusp_curves(
                 Platform::TurningBody => {
                     Tracker::<3>::new(robot, &window, cusp.mode).curve(seed, &all.curves)
                 }
-                _ => Tracker::<2>::new(robot, &window, cusp.mode).curve(seed, &all.curves),
+                Platform::PlanePoint
+                | Platform::PlaneBody
+                | Platform::TranslatingBody
+                | Platform::FreeBody => Tracker::<2>::new(robot, &window, cusp.mode).curve(seed, &all.curves),
             };
             all.curves.extend(curve);
         }
@@ -251,9 +254,8 @@ impl<'a, const D: usize> Tracker<'a, D> {
         let y: [f64; 3] = here.at.component_mul(&self.unit).into();
         let values = self.system.values(&y, self.system.pivot(&y));
         let legs = || self.system.robot.legs.iter().map(|leg| leg.actuator).enumerate();
-        let free = |(j, actuator): (usize, Actuator)| match actuator {
-            Actuator::Revolute { crank, .. } => values.weights[j] < SMALL * crank.mid().powi(2),
-            _ => false,
+        let free = |(j, actuator): (usize, Actuator)| {
+            actuator.usual_weight().is_some_and(|usual| values.weights[j] < SMALL * usual)
         };
         let serial = |(j, actuator): (usize, Actuator)| {
             actuator.greatest_reach().is_some_and(|most| values.closing[j] < SMALL * most.mid())

@@ -1,13 +1,10 @@
 //! What holds at a cusp, for any scalar.
 
-use crate::chart::Chart;
-use crate::chart::Coordinates;
+use crate::chart::{Chart, Coordinates};
 use crate::modal::LegClosure;
 use crate::placement::{cofactors, into_frame, leg_gradient, out_of_frame, wrench};
-use aspecta_robot::WorkingMode;
-use aspecta_robot::legs::equation;
 use aspecta_robot::num::{Interval, Jet, Scalar, dot, each};
-use aspecta_robot::{Leg, Platform, Robot};
+use aspecta_robot::{Leg, Platform, Robot, WorkingMode};
 
 /// The equations of cusps in one working mode, in the coordinates of one chart.
 ///
@@ -194,7 +191,7 @@ fn velocity<T: Scalar, const D: usize, const N: usize>(
 pub(super) fn curvature<const D: usize>(leg: &Leg, d: [f64; D], q: f64) -> [[Interval; D]; D] {
     let inner = |k: usize| Jet::<Interval, D>::variable(Interval::point(d[k]), k);
     let outer: [Jet<Jet<Interval, D>, D>; D] = std::array::from_fn(|k| Jet::variable(inner(k), k));
-    let f = equation(&leg.actuator, &outer, Scalar::constant(Interval::point(q)));
+    let f = leg.actuator.equation(&outer, Scalar::constant(Interval::point(q)));
     f.gradient.map(|row| row.gradient)
 }
 

@@ -2,7 +2,7 @@
 
 use crate::placement::{Placement, out_of_frame};
 use arrayvec::ArrayVec;
-use aspecta_robot::legs::equation;
+use aspecta_robot::legs::LockedEnd;
 use aspecta_robot::num::{Interval, Jet, Scalar};
 use aspecta_robot::{Actuator, BASE_FRAME, Leg, Platform};
 use nalgebra::{SMatrix, SVector};
@@ -30,28 +30,15 @@ impl Locked {
     pub fn new<const D: usize>(leg: &Leg, q: f64) -> Self {
         let slack = slack(leg, q);
         let q = Interval::new(q - slack, q + slack);
-        let (local, length) = match &leg.actuator {
-            Actuator::Revolute { crank, rod } => {
-                let (sin, cos) = q.sin_cos();
-                ([cos * *crank, sin * *crank, Interval::point(0.0)], *rod)
-            }
-            Actuator::Prismatic { rod } => ([q, Interval::point(0.0), Interval::point(0.0)], *rod),
-            Actuator::Strut => ([Interval::point(0.0); 3], q),
-            Actuator::Spherical { .. } => return Self { leg: leg.clone(), q },
+        let (end, length) = match leg.actuator.locked::<D>(q) {
+            LockedEnd::Sphere { centre, radius } => (out_of_frame(leg, &centre), radius),
+            LockedEnd::Cone { .. } => return Self { leg: leg.clone(), q },
         };
         let mut anchor = leg.anchor;
-        let crank = out_of_frame::<Interval, D>(leg, &std::array::from_fn(|k| local[k]));
         for k in 0..D {
-            anchor[k] = anchor[k] + crank[k];
+            anchor[k] = anchor[k] + end[k];
         }
-        let strut = Leg {
-            anchor,
-            attachment: leg.attachment,
-            frame: BASE_FRAME,
-            actuator: Actuator::Strut,
-            limits: Vec::new(),
-        };
-        Self { leg: strut, q: length }
+        Self { leg: Leg::strut_between(anchor, leg.attachment), q: length }
     }
 
     /// The centre P − c of the sphere of poses that this leg allows a platform that does not turn.
@@ -64,13 +51,7 @@ impl Locked {
 /// coordinates that went into it, seen as an angle of the crank where q is one.
 fn slack(leg: &Leg, q: f64) -> f64 {
     let ends = largest(&leg.anchor) + largest(&leg.attachment);
-    let relative = match &leg.actuator {
-        Actuator::Revolute { crank, rod } => (q.abs() + 1.0).max((ends + crank.hi + rod.hi) / crank.lo),
-        Actuator::Prismatic { rod } => ends + rod.hi + q.abs(),
-        Actuator::Strut => ends + q.abs(),
-        Actuator::Spherical { .. } => q.abs() + 1.0,
-    };
-    2.0 * f64::EPSILON * relative
+    2.0 * f64::EPSILON * leg.actuator.rounded_size(ends, q)
 }
 
 /// f(X), one leg equation a locked leg, for any scalar: values, enclosures, or either with gradients.
@@ -83,7 +64,7 @@ pub(super) fn equations<T: Scalar, const D: usize, const N: usize>(
     let placement = Placement::<T, D>::at(platform, x);
     std::array::from_fn(|j| {
         let Locked { leg, q } = &legs[j];
-        equation(&leg.actuator, &placement.span(leg, &placement.arm(leg)), T::constant(*q))
+        leg.actuator.equation(&placement.span(leg, &placement.arm(leg)), T::constant(*q))
     })
 }
 

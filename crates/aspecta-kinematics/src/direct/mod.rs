@@ -36,7 +36,6 @@ use super::singularity::serial_legs;
 use super::{KinematicsError, Solution, WorkingMode, check_joints, for_platform};
 use crate::Kinematics;
 use arrayvec::ArrayVec;
-use aspecta_robot::legs::eliminate;
 use aspecta_robot::num::Interval;
 use aspecta_robot::{Actuator, Platform, Robot};
 use locked::{Locked, LockedLegs};
@@ -181,10 +180,15 @@ pub(crate) fn direct_poses(robot: &Robot, q: &[f64]) -> Result<Poses, Kinematics
 
 fn locked(robot: &Robot, q: &[f64]) -> Result<LockedLegs, KinematicsError> {
     check_joints(robot, q)?;
-    let locked = |(j, leg): (usize, &aspecta_robot::Leg)| match leg.actuator {
-        Actuator::Strut if q[j] <= 0.0 => Err(KinematicsError::StrutLength { leg: j + 1, value: q[j] }),
-        _ if robot.platform.space() == 2 => Ok(Locked::new::<2>(leg, q[j])),
-        _ => Ok(Locked::new::<3>(leg, q[j])),
+    let locked = |(j, leg): (usize, &aspecta_robot::Leg)| {
+        if leg.actuator.forbids(q[j]) {
+            return Err(KinematicsError::StrutLength { leg: j + 1, value: q[j] });
+        }
+        Ok(if robot.platform.space() == 2 {
+            Locked::new::<2>(leg, q[j])
+        } else {
+            Locked::new::<3>(leg, q[j])
+        })
     };
     robot.legs.iter().enumerate().map(locked).collect()
 }
@@ -249,7 +253,7 @@ pub fn within_limits<const D: usize>(robot: &Robot, pose: &[f64], mode: WorkingM
     let placement = Placement::<f64, D>::at(robot.platform, pose);
     robot.legs.iter().zip(mode.signs()).all(|(leg, sign)| {
         let span = placement.span(leg, &placement.arm(leg));
-        let closure = eliminate(&leg.actuator, &span);
+        let closure = leg.actuator.eliminate(&span);
         let at = LegAt { leg, span, closure, crank: None };
         leg.limits.iter().all(|limit| {
             margin(limit, &at, f64::from(sign) * closure.reach.max(0.0).sqrt(), &placement) > 0.0

@@ -3,8 +3,8 @@
 use super::locked::Locked;
 use super::projective::{Point, Problem, Quadrics, turned_product};
 use crate::placement::out_of_frame;
-use aspecta_robot::Actuator;
-use aspecta_robot::num::{Interval, Scalar};
+use aspecta_robot::legs::LockedEnd;
+use aspecta_robot::num::Interval;
 use std::sync::LazyLock;
 
 /// w(q) · R v = cos(distal), times ‖e‖²: a quadratic form in the quaternion e.
@@ -27,12 +27,11 @@ pub(super) struct Cone {
 /// The three cones of locked legs; `None` for legs of other kinds, which `Robot::new` lets no turning body have.
 pub(super) fn cones(legs: &[Locked]) -> Option<[Cone; 3]> {
     let cone = |locked: &Locked| {
-        let Actuator::Spherical { proximal: (cos_p, sin_p), distal_cos } = locked.leg.actuator else {
-            return None;
+        let (axis, cosine) = match locked.leg.actuator.locked(locked.q) {
+            LockedEnd::Cone { axis, cosine } => (axis, cosine),
+            LockedEnd::Sphere { .. } => return None,
         };
-        let (sin, cos) = locked.q.sin_cos();
-        let w = out_of_frame(&locked.leg, &[cos * sin_p, sin * sin_p, cos_p]);
-        Some(Cone { w, v: locked.leg.attachment, cosine: distal_cos })
+        Some(Cone { w: out_of_frame(&locked.leg, &axis), v: locked.leg.attachment, cosine })
     };
     Some([cone(legs.first()?)?, cone(legs.get(1)?)?, cone(legs.get(2)?)?])
 }

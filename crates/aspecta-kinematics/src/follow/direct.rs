@@ -5,8 +5,8 @@ use super::tube::{Located, Model, plain};
 use super::{Padded, between, check_numbers, in_stretches, unpadded};
 use crate::path::units;
 use crate::{KinematicsError, WorkingMode, direct, for_platform};
+use aspecta_robot::Robot;
 use aspecta_robot::num::padded;
-use aspecta_robot::{Actuator, Robot};
 use nalgebra::SMatrix;
 
 /// Follows one direct solution: given the next joint vector, the pose on the same branch, certified. See [`super`] for the
@@ -131,7 +131,7 @@ pub(super) fn check_joints(robot: &Robot, q: &[f64]) -> Result<(), BadInput> {
 
 /// A strut whose length is not positive.
 fn short_strut(robot: &Robot, q: &[f64]) -> Option<usize> {
-    robot.legs.iter().zip(q).position(|(leg, q)| leg.actuator == Actuator::Strut && *q <= 0.0)
+    robot.legs.iter().zip(q).position(|(leg, q)| leg.actuator.forbids(*q))
 }
 
 fn start<const D: usize, const N: usize>(

@@ -2,10 +2,9 @@
 
 use super::refusal::{Refusal, StartError};
 use super::{Padded, between, check_numbers, in_stretches, unpadded};
-use crate::Kinematics;
 use crate::modal::{ModalRows, closures};
 use crate::placement::Placement;
-use crate::{WorkingMode, direct, for_platform};
+use crate::{Kinematics, WorkingMode, direct, for_platform};
 use aspecta_robot::Robot;
 use aspecta_robot::legs::Drive;
 use aspecta_robot::num::{Interval, Scalar, each, padded, without_turns};

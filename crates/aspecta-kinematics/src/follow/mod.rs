@@ -47,7 +47,7 @@
 //!
 //! Poses are joined by a straight segment in pose coordinates, as in [`check_path`](super::check_path). If
 //! H_j > 0 in intervals on stretches that cover it, the solution of each leg is one continuous function
-//! ([`eliminate`](aspecta_robot::legs::eliminate)). If the vector (cos q_j, sin q_j) · weight of a
+//! ([`eliminate`](aspecta_robot::legs::Actuator::eliminate)). If the vector (cos q_j, sin q_j) · weight of a
 //! stretch lies in a box that does not hold the origin and is seen from there under an angle below π, then
 //! q_j changes by less than π, and the difference of its values at both ends, taken without full turns, is
 //! the true one.

@@ -2,7 +2,6 @@
 
 use super::tube::{Model, Turn};
 use crate::placement::{Placement, leg_gradient_turned, moved, wrench};
-use aspecta_robot::legs::equation_turned;
 use nalgebra::{SMatrix, SVector};
 
 /// Chord steps after the one Newton step with a fresh Jacobian.
@@ -54,7 +53,7 @@ impl<const D: usize, const N: usize> Model<'_, D, N> {
         let mut f = SVector::zeros();
         for (j, leg) in self.robot.legs.iter().enumerate().take(N) {
             let span = placement.span(leg, &placement.arm(leg));
-            f[j] = equation_turned(&leg.actuator, &span, q[j], || turns[j]);
+            f[j] = leg.actuator.equation_turned(&span, q[j], || turns[j]);
         }
         f
     }

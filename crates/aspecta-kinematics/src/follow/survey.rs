@@ -8,8 +8,7 @@ use crate::demand::unit_of_moments;
 use crate::limits::{LegAt, margin};
 use crate::placement::{determinant, wrench};
 use crate::{WorkingMode, for_platform};
-use aspecta_robot::Actuator;
-use aspecta_robot::legs::eliminate;
+use aspecta_robot::Platform;
 use aspecta_robot::num::{Ball, Interval, Scalar, Slope, dot, padded};
 
 /// Enclosures of what the robot meets on one certified stretch of joint vectors: they hold the values at every configuration of the solution
@@ -73,21 +72,19 @@ impl<const D: usize, const N: usize> Model<'_, D, N> {
             let over = stretch.leg(leg, j, &placement);
             rows[j] = wrench(robot.platform, &over.gradient, &over.arm);
             unit = unit
-                * match leg.actuator {
-                    Actuator::Revolute { rod, .. } | Actuator::Prismatic { rod } => Over::constant(rod + rod),
-                    Actuator::Strut => norm(&over.gradient),
-                    Actuator::Spherical { .. } => norm(&rows[j]),
+                * match robot.platform {
+                    Platform::TurningBody => norm(&rows[j]),
+                    Platform::PlanePoint
+                    | Platform::PlaneBody
+                    | Platform::TranslatingBody
+                    | Platform::FreeBody => leg.actuator.force(&over.gradient),
                 };
-            // B = s h, or 2 s h for a slider.
-            let sh = match leg.actuator {
-                Actuator::Prismatic { .. } => over.slope.scale(Interval::point(0.5)),
-                _ => over.slope,
-            };
+            let sh = leg.actuator.signed_height(over.slope);
             serial.push(match leg.actuator.greatest_reach() {
                 Some(most) => range(sh) / most.sqrt(),
                 None => Interval::point(-1.0),
             });
-            let closure = eliminate(&leg.actuator, &over.span);
+            let closure = leg.actuator.eliminate(&over.span);
             let crank = over.turn.map(|(sin, cos)| (cos, sin));
             let at = LegAt { leg, span: over.span, closure, crank };
             let margins = leg.limits.iter().map(|limit| range(margin(limit, &at, sh, &placement)));

@@ -4,7 +4,6 @@ use super::newton::Root;
 use super::on_the_way::OnTheWay;
 use super::{Padded, unpadded};
 use crate::placement::{Placement, displacement_row, leg_gradient_turned, wrench};
-use aspecta_robot::legs::equation_turned;
 use aspecta_robot::num::{Ball, Interval, Scalar, Slope, dot, each};
 use aspecta_robot::{Leg, Robot};
 use nalgebra::SMatrix;
@@ -221,7 +220,7 @@ impl<'a, const D: usize, const N: usize> Model<'a, D, N> {
         let mut f = [ZERO; N];
         for (j, leg) in self.robot.legs.iter().enumerate().take(N) {
             let span = at.span(leg, &at.arm(leg));
-            f[j] = equation_turned(&leg.actuator, &span, Ball::point(q[j]), || turns[j]);
+            f[j] = leg.actuator.equation_turned(&span, Ball::point(q[j]), || turns[j]);
         }
         f
     }

@@ -282,7 +282,7 @@ mod tests {
         let end = [6.0, 12.0];
         let crossed = [1, -1].into_iter().find_map(|sign| match towards(end, sign) {
             Along::Crossed { from, to } => Some((from, to)),
-            _ => None,
+            Along::Inside | Along::Outside { .. } | Along::Undecided { .. } => None,
         });
         let (from, to) = crossed.unwrap_or_else(|| panic!("{:?} {:?}", towards(end, 1), towards(end, -1)));
         assert!(length(from, end) <= 13.0 && length(to, end) > 13.0);

@@ -1,12 +1,13 @@
 //! From the tables of a robot file to a [`Robot`]: numbers to enclosures, vectors to frames, keys checked.
 
 use super::error::Problem;
-use super::format::{ActuatorTable, Angle, At, Kind, LegTable, Number, Pair, Range, RobotFile, Unit, Vector};
-use super::locate::{Fault, hint};
+use super::format::{Angle, At, LegTable, Number, Pair, Range, RobotFile, Unit, Vector};
+use super::keys::LegKeys;
+use super::locate::Fault;
 use super::words;
-use crate::frame::{crank_frame, product, rail_frame, sum, unit};
+use crate::frame::{product, sum};
 use crate::num::{Interval, Scalar};
-use crate::{Actuator, BASE_FRAME, Frame, Leg, Platform, Robot, RobotError, check_legs};
+use crate::{Leg, Platform, Robot, RobotError, check_legs};
 use std::ops::Range as Span;
 
 const ZERO: Interval = Interval::point(0.0);
@@ -26,7 +27,7 @@ pub(super) struct Context<'a> {
 pub(super) fn robot(file: &RobotFile, text: &str) -> Result<Robot, Fault> {
     let platform = file.platform.value;
     let context = Context { text, platform };
-    let kinds: Vec<_> = file.legs.iter().map(|l| l.value.actuator.value.kind.value.name()).collect();
+    let kinds: Vec<_> = file.legs.iter().map(|l| l.value.actuator.value.kind.value).collect();
     check_legs(platform, &kinds).map_err(|e| misfit(file, e))?;
     let legs = file.legs.iter().map(|leg| context.leg(leg)).collect::<Result<Vec<_>, _>>()?;
     let mut robot = Robot::new(words::name(&file.name)?, platform, legs).map_err(|e| misfit(file, e))?;
@@ -69,117 +70,12 @@ fn check_reach(file: &RobotFile, robot: &Robot) -> Result<(), Fault> {
 
 impl Context<'_> {
     fn leg(&self, leg: &At<LegTable>) -> Result<Leg, Fault> {
-        let table = &leg.value;
-        let actuator = &table.actuator;
-        let kind = actuator.value.kind.value;
-        self.check_keys(actuator)?;
-        let (anchor, attachment) = match kind {
-            Kind::Spherical => {
-                if let Some(anchor) = &table.anchor {
-                    let reason = "spherical legs pivot about the origin: leave the anchor out".into();
-                    return Err(Fault::new(&anchor.span, Problem::OutOfPlace { reason }));
-                }
-                let joint = required(&table.attachment, "attachment", &leg.span)?;
-                let direction = self.vector(joint)?;
-                ([ZERO; 3], unit(&direction).ok_or(Fault::new(&joint.span, Problem::ZeroVector))?)
-            }
-            _ => {
-                let anchor = self.vector(required(&table.anchor, "anchor", &leg.span)?)?;
-                (anchor, table.attachment.as_ref().map_or(Ok([ZERO; 3]), |c| self.vector(c))?)
-            }
-        };
-        let frame = self.frame(actuator)?;
-        let mut leg =
-            Leg { anchor, attachment, frame, actuator: self.actuator(actuator)?, limits: Vec::new() };
-        leg.limits = self.limits(&table.limits, kind, &leg)?;
-        Ok(leg)
-    }
-
-    /// Every key the actuator needs, and no other.
-    fn check_keys(&self, actuator: &At<ActuatorTable>) -> Result<(), Fault> {
-        let t = &actuator.value;
-        let number = |n: &Option<Number>| n.as_ref().map(|n| n.span.clone());
-        let vector = |v: &Option<At<Vector>>| v.as_ref().map(|v| v.span.clone());
-        let angle = |a: &Option<At<Angle<Number>>>| a.as_ref().map(|a| a.span.clone());
-        let given = [
-            ("crank", number(&t.crank)),
-            ("rod", number(&t.rod)),
-            ("direction", vector(&t.direction)),
-            ("axis", vector(&t.axis)),
-            ("zero", vector(&t.zero)),
-            ("proximal", angle(&t.proximal)),
-            ("distal", angle(&t.distal)),
-        ];
-        let kind = t.kind.value;
-        let wanted = kind.keys(self.platform.space());
-        for (key, span) in given {
-            match span {
-                Some(span) if !wanted.contains(&key) => {
-                    let reason = self.out_of_place(kind, key);
-                    return Err(Fault { span, problem: Problem::OutOfPlace { reason } });
-                }
-                None if wanted.contains(&key) => {
-                    let problem = Problem::MissingKey { key: key.into(), hint: hint(key) };
-                    return Err(Fault::new(&actuator.span, problem));
-                }
-                _ => {}
-            }
-        }
-        Ok(())
-    }
-
-    fn out_of_place(&self, kind: Kind, key: &str) -> String {
-        let space = self.platform.space();
-        if kind.keys(3).contains(&key) {
-            return format!(
-                "in the plane cranks turn about the normal, counter-clockwise from the x axis: leave `{key}` out"
-            );
-        }
-        let keys = kind.keys(space).iter().fold("`kind`".to_owned(), |all, k| format!("{all}, `{k}`"));
-        format!("a `{}` actuator has no `{key}`; its keys are {keys}", kind.name())
-    }
-
-    fn frame(&self, actuator: &At<ActuatorTable>) -> Result<Frame, Fault> {
-        let (t, space) = (&actuator.value, self.platform.space());
-        match t.kind.value {
-            Kind::Strut => Ok(BASE_FRAME),
-            Kind::Revolute if space == 2 => Ok(BASE_FRAME),
-            Kind::Prismatic => {
-                let direction = required(&t.direction, "direction", &actuator.span)?;
-                rail_frame(&self.vector(direction)?, space)
-                    .ok_or(Fault::new(&direction.span, Problem::ZeroVector))
-            }
-            Kind::Revolute | Kind::Spherical => {
-                let axis = required(&t.axis, "axis", &actuator.span)?;
-                let zero = required(&t.zero, "zero", &actuator.span)?;
-                let (w, u) = (self.vector(axis)?, self.vector(zero)?);
-                for (vector, at) in [(&w, axis), (&u, zero)] {
-                    unit(vector).ok_or(Fault::new(&at.span, Problem::ZeroVector))?;
-                }
-                crank_frame(&w, &u).ok_or(Fault::new(&zero.span, Problem::Parallel))
-            }
-        }
-    }
-
-    fn actuator(&self, actuator: &At<ActuatorTable>) -> Result<Actuator, Fault> {
-        let (t, span) = (&actuator.value, &actuator.span);
-        let length = |n: &Option<Number>, key| self.length(required(n, key, span)?);
-        Ok(match t.kind.value {
-            Kind::Revolute => {
-                Actuator::Revolute { crank: length(&t.crank, "crank")?, rod: length(&t.rod, "rod")? }
-            }
-            Kind::Prismatic => Actuator::Prismatic { rod: length(&t.rod, "rod")? },
-            Kind::Strut => Actuator::Strut,
-            Kind::Spherical => Actuator::Spherical {
-                proximal: self.link(required(&t.proximal, "proximal", span)?)?,
-                distal_cos: self.link(required(&t.distal, "distal", span)?)?.0,
-            },
-        })
-    }
-
-    /// (cos, sin) of the angle of a spherical link.
-    fn link(&self, angle: &At<Angle<Number>>) -> Result<(Interval, Interval), Fault> {
-        self.open_angle(angle, "the angle of a spherical link", "between 0° and 180°, ends excluded")
+        let kind = leg.value.actuator.value.kind.value;
+        let keys = LegKeys::new(self, leg);
+        keys.check()?;
+        let mut read = kind.read(&keys)?;
+        read.limits = self.limits(&leg.value.limits, kind, &read)?;
+        Ok(read)
     }
 
     /// (cos, sin) of an angle strictly between 0° and 180°.
@@ -249,7 +145,8 @@ impl Context<'_> {
         if a < b { Ok((min, max)) } else { Err(Fault::new(span, Problem::Contradiction { min: a, max: b })) }
     }
 
-    fn length(&self, number: &Number) -> Result<Interval, Fault> {
+    /// A length within [1e-6, 1e6].
+    pub fn length(&self, number: &Number) -> Result<Interval, Fault> {
         let length = self.decimal(number)?;
         let x = number.value.0;
         if x <= 0.0 {
@@ -305,12 +202,6 @@ fn is_integer(literal: &str) -> bool {
     digits.zip(0i64..).all(|(digit, place)| digit == '0' || place < point)
 }
 
-/// A key that [`Context::check_keys`] or the reader of a leg wants.
-fn required<'a, T>(value: &'a Option<T>, key: &str, span: &Span<usize>) -> Result<&'a T, Fault> {
-    let missing = || Fault::new(span, Problem::MissingKey { key: key.into(), hint: hint(key) });
-    value.as_ref().ok_or_else(missing)
-}
-
 impl Unit {
     /// 180°, rounded down.
     pub fn half_turn(self) -> f64 {
@@ -340,7 +231,7 @@ impl Unit {
         let (o, i) = (ZERO, Interval::point(1.0));
         let quarters = match self {
             Self::Deg if x.lo == x.hi && x.lo % 90.0 == 0.0 => Some((x.lo / 90.0).rem_euclid(4.0)),
-            _ => (x == o).then_some(0.0),
+            Self::Deg | Self::Rad => (x == o).then_some(0.0),
         };
         match quarters {
             Some(0.0) => (i, o),

@@ -1,6 +1,6 @@
 //! What can be wrong with a robot file, said so that the reader can mend it.
 
-use super::locate::hint;
+use super::format::hint;
 use crate::RobotError;
 use crate::num::written;
 use std::fmt;

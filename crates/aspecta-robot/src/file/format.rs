@@ -3,11 +3,13 @@
 
 use super::schema::keys_of_each_kind;
 use crate::Platform;
+use crate::legs::Kind;
 use schemars::JsonSchema;
+use serde::Deserialize;
 use serde::de::{Deserializer, Error, MapAccess, SeqAccess, Visitor, value::SeqAccessDeserializer};
-use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::ops::Range as Span;
+use std::sync::LazyLock;
 
 /// A value and where it stands in the file (bytes).
 #[derive(Clone, Debug)]
@@ -182,44 +184,6 @@ pub(super) struct LegTable {
     pub limits: LimitsTable,
 }
 
-/// The kind of a leg's actuator.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum Kind {
-    /// A motor turns a crank, a rod follows: RRR, RSS, RUS.
-    Revolute,
-    /// A slider on a rail, a rod follows: PRR, PSS, PUS.
-    Prismatic,
-    /// The distance from A to C is driven: RPR, UPS, SPS.
-    Strut,
-    /// RRR on a sphere about the origin.
-    Spherical,
-}
-
-impl Kind {
-    pub const ALL: [Self; 4] = [Self::Revolute, Self::Prismatic, Self::Strut, Self::Spherical];
-
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Revolute => "revolute",
-            Self::Prismatic => "prismatic",
-            Self::Strut => "strut",
-            Self::Spherical => "spherical",
-        }
-    }
-
-    /// The keys beside `kind` such an actuator needs in the plane (2) or in space (3); it takes no others.
-    pub const fn keys(self, space: usize) -> &'static [&'static str] {
-        match self {
-            Self::Revolute if space == 2 => &["crank", "rod"],
-            Self::Revolute => &["crank", "rod", "axis", "zero"],
-            Self::Prismatic => &["rod", "direction"],
-            Self::Strut => &[],
-            Self::Spherical => &["proximal", "distal", "axis", "zero"],
-        }
-    }
-}
-
 /// The driven joint of a leg and the lengths behind it.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, expecting = "an actuator, { kind = …, … }")]
@@ -241,6 +205,74 @@ pub(super) struct ActuatorTable {
     pub proximal: Option<At<Angle<Number>>>,
     /// Angle of the distal link, from the intermediate to the platform joint (spherical).
     pub distal: Option<At<Angle<Number>>>,
+}
+
+/// The value of a key of an actuator.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Value<'a> {
+    Number(&'a Number),
+    Vector(&'a At<Vector>),
+    Angle(&'a At<Angle<Number>>),
+}
+
+impl Value<'_> {
+    pub fn span(self) -> Span<usize> {
+        match self {
+            Self::Number(number) => number.span.clone(),
+            Self::Vector(vector) => vector.span.clone(),
+            Self::Angle(angle) => angle.span.clone(),
+        }
+    }
+}
+
+impl ActuatorTable {
+    /// All keys beside `kind`, with their values.
+    pub fn values(&self) -> [(&'static str, Option<Value<'_>>); 7] {
+        let Self { kind: _, crank, rod, direction, axis, zero, proximal, distal } = self;
+        [
+            ("crank", crank.as_ref().map(Value::Number)),
+            ("rod", rod.as_ref().map(Value::Number)),
+            ("direction", direction.as_ref().map(Value::Vector)),
+            ("axis", axis.as_ref().map(Value::Vector)),
+            ("zero", zero.as_ref().map(Value::Vector)),
+            ("proximal", proximal.as_ref().map(Value::Angle)),
+            ("distal", distal.as_ref().map(Value::Angle)),
+        ]
+    }
+
+    /// The value of a key, if it is there.
+    pub fn value_of(&self, key: &str) -> Option<Value<'_>> {
+        self.values().into_iter().find(|(name, _)| *name == key)?.1
+    }
+}
+
+/// Where the kind of a leg is missing.
+static KINDS: LazyLock<String> = LazyLock::new(|| {
+    let names: Vec<_> = Kind::ALL.iter().map(|kind| format!("`{}`", kind.name())).collect();
+    format!("one of {}", names.join(", "))
+});
+
+/// What to write for a missing key.
+pub(super) fn hint(key: &str) -> &'static str {
+    match key {
+        "name" => "give the robot a short name, name = \"my-robot\"",
+        "platform" => {
+            "say what the platform can do, one of `plane-point`, `plane-body`, `translating-body`, `turning-body`, \
+             `free-body`"
+        }
+        "actuator" => "say what drives the leg, actuator = { kind = \"revolute\", … }",
+        "kind" => &KINDS,
+        "anchor" => "give the point A of the base, anchor = […]",
+        "attachment" => "give the direction of the platform joint, attachment = […]",
+        "crank" => "give the length of the driven crank",
+        "rod" => "give the length of the rod",
+        "direction" => "give the direction of the rail, direction = […]",
+        "axis" => "give the direction of the axis, axis = […]",
+        "zero" => "say where the crank points at q = 0, zero = […]",
+        "within" => "give the cone's half-angle, within = { deg = … }",
+        "deg" => "give the range in the plane, { deg = [min, max] }",
+        _ => "give the angle of the link, { deg = … }",
+    }
 }
 
 /// Joint limits of a leg; a joint that is not named is free.

@@ -2,9 +2,10 @@
 
 use super::convert::Context;
 use super::error::Problem;
-use super::format::{Angle, At, JointTable, Kind, LimitsTable, Pair, Range};
-use super::locate::{Fault, hint};
+use super::format::{Angle, At, JointTable, LimitsTable, Pair, Range, hint};
+use super::locate::Fault;
 use crate::frame::{into, unit};
+use crate::legs::Kind;
 use crate::num::Interval;
 use crate::{Leg, Limit};
 
@@ -37,33 +38,28 @@ impl Context<'_> {
 
     fn actuator_limit(&self, range: &At<Range>, kind: Kind) -> Result<Limit, Fault> {
         let what = || format!("the driven joint of a `{}` leg", kind.name());
-        match (&range.value, kind) {
-            (Range::Angle(angle), Kind::Revolute | Kind::Spherical) => {
+        match (&range.value, kind.facts().is_angle) {
+            (Range::Angle(angle), true) => {
                 let (middle, half_cos) = angle.unit.middle_and_half(self.turn(angle, &range.span)?);
                 Ok(Limit::ActuatorAngle { middle, half_cos })
             }
-            (Range::Length(pair), Kind::Prismatic | Kind::Strut) => {
+            (Range::Length(pair), false) => {
                 let (min, max) = self.ordered(pair, &range.span)?;
-                if kind == Kind::Strut && min.lo < 0.0 {
+                if kind.facts().is_positive && min.lo < 0.0 {
                     return Err(Fault::new(&pair.0[0].span, Problem::NegativeMinimum));
                 }
                 Ok(Limit::ActuatorLength { min, max })
             }
-            (_, Kind::Revolute | Kind::Spherical) => {
-                Err(Fault::new(&range.span, Problem::AngleWanted { what: what() }))
-            }
-            _ => Err(Fault::new(&range.span, Problem::LengthWanted { what: what() })),
+            (Range::Length(_), true) => Err(Fault::new(&range.span, Problem::AngleWanted { what: what() })),
+            (Range::Angle(_), false) => Err(Fault::new(&range.span, Problem::LengthWanted { what: what() })),
         }
     }
 
     /// In the plane the elbow angle has a sign; in space it lies in [0°, 180°].
     fn elbow(&self, range: &At<Angle<Pair>>, kind: Kind) -> Result<Limit, Fault> {
         let Angle { unit, .. } = range.value;
-        if kind != Kind::Revolute {
-            let others = match kind {
-                Kind::Spherical => "`actuator`",
-                _ => "`base-joint` or `platform-joint`",
-            };
+        if !kind.facts().has_elbow {
+            let others = if kind.facts().has_rod { "`base-joint` or `platform-joint`" } else { "`actuator`" };
             let reason = format!("only a `revolute` leg has an elbow, between crank and rod: limit {others}");
             return Err(Fault::new(&range.span, out_of_place(&reason)));
         }
@@ -83,9 +79,11 @@ impl Context<'_> {
     /// A unit vector and the cosine of a half-angle about it.
     fn cone(&self, joint: &At<JointTable>, kind: Kind) -> Result<Cone, Fault> {
         let (table, span) = (&joint.value, &joint.span);
-        if kind == Kind::Spherical {
-            let reason = "a `spherical` leg has no rod whose direction could be limited: limit `actuator`";
-            return Err(Fault::new(span, out_of_place(reason)));
+        if !kind.facts().has_rod {
+            let name = kind.name();
+            let reason =
+                format!("a `{name}` leg has no rod whose direction could be limited: limit `actuator`");
+            return Err(Fault::new(span, out_of_place(&reason)));
         }
         match self.platform.space() {
             2 => self.planar_cone(table, span),

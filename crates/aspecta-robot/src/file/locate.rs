@@ -1,14 +1,15 @@
 //! From a place in the text (a span of bytes) to line, column, key and value.
 
 use super::error::{FileError, Mistake, Problem, closest};
-use super::format::Kind;
+use super::format::hint;
 use crate::Platform;
+use crate::legs::Kind;
 use std::ops::Range as Span;
 use toml::de::{DeTable, DeValue};
 
 /// A problem and the bytes of the text it is about.
 #[derive(Debug)]
-pub(super) struct Fault {
+pub(crate) struct Fault {
     pub span: Span<usize>,
     pub problem: Problem,
 }
@@ -78,29 +79,6 @@ impl Fault {
     }
 }
 
-/// What to write for a missing key.
-pub(super) fn hint(key: &str) -> &'static str {
-    match key {
-        "name" => "give the robot a short name, name = \"my-robot\"",
-        "platform" => {
-            "say what the platform can do, one of `plane-point`, `plane-body`, `translating-body`, `turning-body`, \
-             `free-body`"
-        }
-        "actuator" => "say what drives the leg, actuator = { kind = \"revolute\", … }",
-        "kind" => "one of `revolute`, `prismatic`, `strut`, `spherical`",
-        "anchor" => "give the point A of the base, anchor = […]",
-        "attachment" => "give the direction of the platform joint, attachment = […]",
-        "crank" => "give the length of the driven crank",
-        "rod" => "give the length of the rod",
-        "direction" => "give the direction of the rail, direction = […]",
-        "axis" => "give the direction of the axis, axis = […]",
-        "zero" => "say where the crank points at q = 0, zero = […]",
-        "within" => "give the cone's half-angle, within = { deg = … }",
-        "deg" => "give the range in the plane, { deg = [min, max] }",
-        _ => "give the angle of the link, { deg = … }",
-    }
-}
-
 /// The keys that the actuator with a key at `span` takes beside `kind`, if there is one and its kind is known.
 fn keys_taken(tree: &DeTable<'_>, span: &Span<usize>) -> Option<&'static [&'static str]> {
     let word = |table: &DeTable<'_>, key: &str| Some(table.get(key)?.get_ref().as_str()?.to_owned());
@@ -108,10 +86,10 @@ fn keys_taken(tree: &DeTable<'_>, span: &Span<usize>) -> Option<&'static [&'stat
     let mut actuators = legs.iter().filter_map(|leg| leg.get_ref().get("actuator")?.get_ref().as_table());
     let actuator = actuators.find(|table| table.keys().any(|key| key.span() == *span))?;
     let name = word(actuator, "kind")?;
-    let kind = Kind::ALL.into_iter().find(|kind| kind.name() == name)?;
+    let kind = Kind::ALL.iter().find(|kind| kind.name() == name)?;
     let platform = word(tree, "platform").unwrap_or_default();
     let space = Platform::ALL.into_iter().find(|p| p.name() == platform).map_or(3, Platform::space);
-    Some(kind.keys(space))
+    Some(kind.facts().keys(space))
 }
 
 /// The key at `span`, as in `legs[2].actuator.crank`, and whether `span` is that of its value (rather than
@@ -160,6 +138,10 @@ fn search_value(value: &DeValue<'_>, at: Span<usize>, key: &str, span: &Span<usi
                 search_value(item.get_ref(), item.span(), &format!("{key}[{}]", k + 1), span, best);
             }
         }
-        _ => {}
+        DeValue::String(_)
+        | DeValue::Integer(_)
+        | DeValue::Float(_)
+        | DeValue::Boolean(_)
+        | DeValue::Datetime(_) => {}
     }
 }

@@ -4,16 +4,18 @@
 mod convert;
 mod error;
 mod format;
+mod keys;
 mod limits;
 mod locate;
 mod schema;
 mod words;
 
 pub use error::{FileError, Mistake, Problem};
+pub(crate) use keys::LegKeys;
+pub(crate) use locate::Fault;
 pub(crate) use words::is_line;
 
 use super::{Robot, catalogue};
-use locate::Fault;
 use serde::Deserialize;
 use std::path::Path;
 use toml::de::{DeTable, Deserializer};

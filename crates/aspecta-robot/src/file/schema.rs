@@ -1,6 +1,7 @@
 //! The JSON Schema of robot files, for editors.
 
-use super::format::{Angle, At, Kind, Pair, Plain, Range, RobotFile};
+use super::format::{Angle, At, Pair, Plain, Range, RobotFile};
+use crate::legs::{Facts, Kind};
 use schemars::generate::SchemaSettings;
 use schemars::transform::RecursiveTransform;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -97,23 +98,22 @@ impl JsonSchema for Range {
     }
 }
 
-/// In the schema, each kind requires its keys and takes no others (a planar revolute leg may do without
-/// `axis` and `zero`; the schema does not know the platform).
+/// In the schema, each kind requires its keys and takes no others (a planar leg may do without those that say how
+/// it stands in space; the schema does not know the platform).
 pub(super) fn keys_of_each_kind(schema: &mut Schema) {
     let all: Vec<String> = schema
         .get("properties")
         .and_then(|p| p.as_object())
         .map(|p| p.keys().filter(|k| *k != "kind").cloned().collect())
         .unwrap_or_default();
-    let rules = Kind::ALL.map(|kind| {
-        let taken = kind.keys(3);
-        let required = if kind == Kind::Revolute { kind.keys(2) } else { taken };
+    let rules = Kind::ALL.iter().map(|kind| {
+        let Facts { name, planar_keys: required, spatial_keys: taken, .. } = kind.facts();
         let refused: serde_json::Map<_, _> =
             all.iter().filter(|k| !taken.contains(&k.as_str())).map(|k| (k.clone(), false.into())).collect();
         serde_json::json!({
-            "if": { "properties": { "kind": { "const": kind.name() } } },
+            "if": { "properties": { "kind": { "const": name } } },
             "then": { "required": required, "properties": refused }
         })
     });
-    schema.insert("allOf".into(), rules.into_iter().collect());
+    schema.insert("allOf".into(), rules.collect());
 }

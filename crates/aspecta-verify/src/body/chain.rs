@@ -1,9 +1,10 @@
 //! The joint angles of a spherical leg: where they put the platform, and what they are.
 
+use super::kinds::spherical;
 use super::{Body, MOST, Own, into_frame, out_of_frame, product, times, turned};
 use aspecta_robot::chart::Chain;
 use aspecta_robot::num::{Interval, Scalar};
-use aspecta_robot::{Actuator, Leg};
+use aspecta_robot::{Leg, Spherical};
 
 impl<T: Scalar, const D: usize> Body<'_, T, D> {
     /// Puts the platform where the angles of a chain do: R = R_z(q) R_y(a) R_z(ψ) R_y(b) R_z(ϑ) in the leg's frame, of a platform whose
@@ -74,7 +75,7 @@ pub(crate) struct Links {
 
 impl Links {
     pub(crate) fn of(leg: &Leg) -> Option<Self> {
-        let Actuator::Spherical { proximal, distal_cos } = leg.actuator else { return None };
+        let Spherical { proximal, distal_cos } = spherical(&leg.actuator)?;
         let distal_sin = (Interval::point(1.0) - distal_cos.square()).sqrt();
         Some(Self { proximal, distal: (distal_cos, distal_sin) })
     }

@@ -3,7 +3,7 @@
 use super::{Certificate, TreeError};
 use aspecta_robot::AXES;
 use aspecta_robot::chart::{Chain, Chart, Fold};
-use aspecta_robot::{Actuator, Platform, Robot, Unsound as Part, Window, holds, sane, usable, wanted};
+use aspecta_robot::{Platform, Robot, Unsound as Part, Window, holds, sane, takes, usable, wanted};
 
 /// Parts that do not fit together.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -152,7 +152,7 @@ impl Certificate {
 
 fn check_fold(robot: &Robot, fold: &Fold) -> Result<(), Part> {
     let leg = robot.legs.get(fold.leg).ok_or(Part::Index { what: "leg of a fold", index: fold.leg })?;
-    holds(matches!(leg.actuator, Actuator::Revolute { .. }), "a fold is that of a leg without a crank")?;
+    holds(takes(&leg.actuator).elbow, "a fold is that of a leg without a crank")?;
     holds(
         matches!(robot.platform, Platform::PlanePoint | Platform::PlaneBody | Platform::TranslatingBody),
         "a fold has a platform that cannot be moved to it without turning",
@@ -172,7 +172,7 @@ fn check_fold(robot: &Robot, fold: &Fold) -> Result<(), Part> {
 fn check_chain(robot: &Robot, window: &Window, chain: &Chain, sheet: usize) -> Result<(), Part> {
     let leg = robot.legs.get(chain.leg).ok_or(Part::Index { what: "leg of a chain", index: chain.leg })?;
     holds(
-        robot.platform == Platform::TurningBody && matches!(leg.actuator, Actuator::Spherical { .. }),
+        robot.platform == Platform::TurningBody && takes(&leg.actuator).on_sphere,
         "a chain is that of a platform that does not turn about a point, or of a leg that is not spherical",
     )?;
     let whole = window.ranges.len() == 3 && window.cut.iter().all(|cut| *cut == (false, false));

@@ -103,7 +103,7 @@ fn bends_are_disjoint() {
     for (leg, joint) in robot.legs.iter_mut().zip([[0.6, -0.8, 0.0], [0.0, 0.28, -0.96], [-0.96, 0.0, 0.28]])
     {
         let (cos, sin) = (Interval::point(0.0), Interval::point(1.0));
-        leg.actuator = Actuator::Spherical { proximal: (cos, sin), distal_cos: cos };
+        leg.actuator = crate::robot::Spherical { proximal: (cos, sin), distal_cos: cos }.into();
         leg.attachment = joint.map(Interval::point);
     }
     let window = robot.slice(&[]).unwrap();

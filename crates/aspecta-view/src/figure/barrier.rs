@@ -1,12 +1,11 @@
 //! The functions whose zeros bound the aspects of a working mode, in plain f64 (*numerical*).
 //!
-//! The same [`eliminate`] as in the proofs gives them, with h = √max(H, 0): so they go on continuously
+//! The same [`eliminate`](aspecta::legs::Actuator::eliminate) as in the proofs gives them, with h = √max(H, 0): so they go on continuously
 //! beyond the reach of the legs, and a contour meets the boundary H = 0 without a gap.
 
 use aspecta::kinematics::WorkingMode;
 use aspecta::kinematics::limits::{LegAt, margin};
 use aspecta::kinematics::placement::{Placement, determinant, out_of_frame, wrench};
-use aspecta::robot::legs::{drive, eliminate};
 use aspecta::robot::{Platform, Robot};
 
 /// What bounds an aspect.
@@ -51,7 +50,7 @@ fn barriers<const D: usize, const N: usize>(robot: &Robot, mode: WorkingMode, po
     for (j, leg) in robot.legs.iter().enumerate() {
         let arm = placement.arm(leg);
         let span = placement.span(leg, &arm);
-        let closure = eliminate(&leg.actuator, &span);
+        let closure = leg.actuator.eliminate(&span);
         let at = LegAt { leg, span, closure, crank: None };
         let sh = f64::from(mode.sign(j)) * closure.reach.max(0.0).sqrt();
         let gradient: [f64; D] = std::array::from_fn(|k| closure.fixed[k] + sh * closure.swing[k]);
@@ -60,7 +59,7 @@ fn barriers<const D: usize, const N: usize>(robot: &Robot, mode: WorkingMode, po
             reaches.push((Kind::Serial, closure.reach));
         }
         limits.extend(leg.limits.iter().map(|l| (Kind::Limit, margin(l, &at, sh, &placement))));
-        q.push(drive(&leg.actuator, &span, &closure, sh).value());
+        q.push(leg.actuator.drive(&span, &closure, sh).value());
     }
     reaches.append(&mut limits);
     Barriers { det: determinant(&rows), margins: reaches, q }

@@ -1,7 +1,8 @@
 //! What the colours of a drawn robot mean.
 
 use super::svg::{Anchor, Svg};
-use aspecta::robot::{Actuator, Platform, Robot};
+use aspecta::legs::{Kind, Part, Role};
+use aspecta::robot::{Platform, Robot};
 
 pub(super) const BASE: &str = "#777";
 pub(super) const CRANK: &str = "#0072b2";
@@ -31,29 +32,25 @@ pub(super) fn legend(svg: &mut Svg, robot: &Robot, [left, right, bottom]: [f64; 
 
 /// Words are those of the robot's file.
 fn entries(robot: &Robot) -> Vec<Entry> {
-    let all = [
-        (has(robot, |a| matches!(a, Actuator::Revolute { .. })), CRANK, "crank (driven joint filled)"),
-        (
-            has(robot, |a| matches!(a, Actuator::Prismatic { .. })),
-            BASE,
-            "slider's range (driven joint filled)",
-        ),
-        (has(robot, |a| matches!(a, Actuator::Revolute { .. } | Actuator::Prismatic { .. })), ROD, "rod"),
-        (has(robot, |a| matches!(a, Actuator::Strut)), CRANK, "strut (driven length)"),
-        (
-            has(robot, |a| matches!(a, Actuator::Spherical { .. })),
-            CRANK,
-            "proximal link (driven joint filled)",
-        ),
-        (has(robot, |a| matches!(a, Actuator::Spherical { .. })), ROD, "distal link"),
+    let is_there = |kind: &&Kind| robot.legs.iter().any(|leg| leg.actuator.kind() == **kind);
+    let parts: Vec<Part> =
+        Kind::ALL.iter().filter(is_there).flat_map(|kind| kind.facts().parts).copied().collect();
+    // A part that kinds share is named with the last of them.
+    let once = parts.iter().enumerate().filter(|(k, part)| !parts[k + 1..].contains(part));
+    let platform = [
         (robot.platform != Platform::PlanePoint, PLATFORM, "platform"),
         (robot.platform == Platform::TurningBody, SPHERE, "unit sphere"),
     ];
-    all.into_iter().filter(|(there, ..)| *there).map(|(_, colour, text)| (colour, text)).collect()
+    let platform = platform.into_iter().filter(|(there, ..)| *there).map(|(_, colour, text)| (colour, text));
+    once.map(|(_, part)| (colour(part.role), part.name)).chain(platform).collect()
 }
 
-fn has(robot: &Robot, what: fn(&Actuator) -> bool) -> bool {
-    robot.legs.iter().any(|leg| what(&leg.actuator))
+fn colour(role: Role) -> &'static str {
+    match role {
+        Role::Driven => CRANK,
+        Role::Guide => BASE,
+        Role::Follower => ROD,
+    }
 }
 
 /// Lines no wider than `room`, unless an entry alone is.

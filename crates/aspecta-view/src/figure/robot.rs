@@ -8,7 +8,7 @@ use super::shape::Shapes;
 use super::skeleton::{LegShape, Point, Skeleton, minus, plus, times};
 use super::svg::{Anchor, Svg};
 use aspecta::aspect::{ModeReport, Reachable, Sample};
-use aspecta::robot::{Actuator, Platform, Robot};
+use aspecta::robot::{Platform, Robot};
 
 /// The robot at `sample`, with the names of its points, both frames and a legend.
 pub fn robot(robot: &Robot, sample: &Sample) -> String {
@@ -235,7 +235,7 @@ impl Drawing<'_> {
                     svg.polyline(&arc(leg.a, b), false, &stroke(CRANK, 5.0));
                 }
                 svg.polyline(&arc(b, leg.c), false, &stroke(ROD, 3.0));
-                self.joint(svg, b, matches!(self.robot.legs[k].actuator, Actuator::Prismatic { .. }));
+                self.joint(svg, b, leg.rail.is_some());
             }
             None => {
                 let half = plus(leg.a, times(0.55, minus(leg.c, leg.a)));

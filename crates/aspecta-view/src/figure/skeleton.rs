@@ -1,8 +1,9 @@
 //! Where the parts of a robot are in a configuration.
 
-use aspecta::kinematics::placement::{Placement, out_of_frame};
+use aspecta::kinematics::placement::Placement;
+use aspecta::legs::Points;
 use aspecta::num::Interval;
-use aspecta::robot::{Actuator, Leg, Platform, Robot};
+use aspecta::robot::{Leg, Platform, Robot};
 
 /// A point of space; the third coordinate is 0 in the plane.
 pub type Point = [f64; 3];
@@ -20,18 +21,8 @@ pub struct Skeleton {
     pub size: f64,
 }
 
-/// A leg.
-#[derive(Clone, Debug)]
-pub struct LegShape {
-    /// A_i (spherical: the unit vector of the base joint).
-    pub a: Point,
-    /// B_i, absent for struts.
-    pub b: Option<Point>,
-    /// C_i (spherical: the unit vector of the platform joint).
-    pub c: Point,
-    /// The part of a slider's line that is drawn.
-    pub rail: Option<[Point; 2]>,
-}
+/// Where the joints of a leg are.
+pub type LegShape = Points<f64, 3>;
 
 impl Skeleton {
     /// The robot at (X, q).
@@ -81,28 +72,8 @@ fn skeleton<const D: usize>(robot: &Robot, pose: &[f64], q: &[f64]) -> Skeleton 
 }
 
 fn shape<const D: usize>(leg: &Leg, placement: &Placement<f64, D>, q: f64) -> LegShape {
-    let local = |v: [f64; 3]| lift(out_of_frame::<f64, D>(leg, &std::array::from_fn(|k| v[k])));
-    let a = leg.anchor.map(Interval::mid);
     let arm = placement.arm(leg);
-    let c = plus(a, lift(out_of_frame(leg, &placement.span(leg, &arm))));
-    match leg.actuator {
-        Actuator::Revolute { crank, .. } => {
-            let l = crank.mid();
-            LegShape { a, b: Some(plus(a, local([l * q.cos(), l * q.sin(), 0.0]))), c, rail: None }
-        }
-        Actuator::Prismatic { rod } => {
-            let (lo, hi) =
-                leg.length_range().map_or((q - rod.mid(), q + rod.mid()), |(lo, hi)| (lo.mid(), hi.mid()));
-            let on = |t: f64| plus(a, local([t, 0.0, 0.0]));
-            LegShape { a, b: Some(on(q)), c, rail: Some([on(lo), on(hi)]) }
-        }
-        Actuator::Strut => LegShape { a, b: None, c, rail: None },
-        Actuator::Spherical { proximal: (cos, sin), .. } => {
-            let (cos, sin) = (cos.mid(), sin.mid());
-            let b = local([sin * q.cos(), sin * q.sin(), cos]);
-            LegShape { a: local([0.0, 0.0, 1.0]), b: Some(b), c: lift(arm), rail: None }
-        }
-    }
+    leg.actuator.points(leg, &placement.span(leg, &arm), &arm, q).in_space()
 }
 
 fn lift<const D: usize>(v: [f64; D]) -> Point {

@@ -6,7 +6,8 @@ use crate::figure::survey::coordinate_name;
 use crate::words::{measure_unit, number};
 use aspecta::aspect::{Analysis, AspectClass, DetSign, Reachable};
 use aspecta::kinematics::WorkingMode;
-use aspecta::robot::{Actuator, Leg, Platform, Robot};
+use aspecta::legs::{Dimension, Size};
+use aspecta::robot::{Leg, Platform, Robot};
 use maud::{Markup, html};
 
 /// The robot's data: one row a leg.
@@ -38,23 +39,13 @@ pub fn legs(analysis: &Analysis) -> Markup {
 }
 
 fn lengths(leg: &Leg) -> String {
-    match leg.actuator {
-        Actuator::Revolute { crank, rod } => {
-            format!("crank {}, rod {}", number(crank.mid()), number(rod.mid()))
-        }
-        Actuator::Prismatic { rod } => format!("rod {}", number(rod.mid())),
-        Actuator::Strut => leg
-            .length_range()
-            .map_or("strut".into(), |(lo, hi)| format!("strut {} to {}", number(lo.mid()), number(hi.mid()))),
-        Actuator::Spherical { proximal: (c, s), distal_cos } => {
-            let proximal = s.mid().atan2(c.mid()).to_degrees();
-            format!(
-                "proximal {}°, distal {}°",
-                number(proximal),
-                number(distal_cos.mid().acos().to_degrees())
-            )
-        }
-    }
+    let describe = |Dimension { name, size }| match size {
+        None => String::from(name),
+        Some(Size::Length(length)) => format!("{name} {}", number(length)),
+        Some(Size::Lengths(least, greatest)) => format!("{name} {} to {}", number(least), number(greatest)),
+        Some(Size::Angle(angle)) => format!("{name} {}°", number(angle.to_degrees())),
+    };
+    leg.actuator.dimensions(leg).into_iter().map(describe).collect::<Vec<_>>().join(", ")
 }
 
 fn point(p: &[f64; 3], robot: &Robot) -> String {

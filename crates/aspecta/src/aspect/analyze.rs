@@ -15,13 +15,11 @@ use super::result::*;
 use super::seams::centre;
 use super::search::Search;
 use crate::paving::{Budget, Control, MODES, Mark, Node, Paving, Progress, Stop};
-use aspecta_kinematics::Kinematics;
 use aspecta_kinematics::chart::uncharted_folds;
 use aspecta_kinematics::parallel_rods::parallel_rods;
-use aspecta_kinematics::{WorkingMode, seems_architecturally_singular};
-use aspecta_robot::work;
+use aspecta_kinematics::{Kinematics, WorkingMode, seems_architecturally_singular};
 use aspecta_robot::work::Stopwatch;
-use aspecta_robot::{Actuator, Leg, Robot, Window};
+use aspecta_robot::{Leg, Robot, Window, work};
 use aspecta_verify::certificate::Certificate;
 use std::collections::BTreeSet;
 
@@ -293,16 +291,10 @@ fn mode_report(robot: &Robot, paving: &Paving, m: usize, mode: WorkingMode) -> M
 fn leg_reports(robot: &Robot) -> Vec<LegReport> {
     let report = |(k, leg): (usize, &Leg)| LegReport {
         leg: k + 1,
-        actuator: leg.actuator.kind(),
+        actuator: leg.actuator.kind().name(),
         postures: leg.actuator.postures(),
         cuspidal: false,
-        reason: match leg.actuator {
-            Actuator::Strut => "one posture: the strut's length is positive",
-            _ => {
-                "two postures, the roots of a quadratic in closed form: the sign of B_jj names them, and they meet \
-                     only where B_jj = 0"
-            }
-        },
+        reason: leg.actuator.kind().facts().why_not_cuspidal,
     };
     robot.legs.iter().enumerate().map(report).collect()
 }

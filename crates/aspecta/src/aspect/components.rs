@@ -79,7 +79,7 @@ impl Components {
         let is_covered = |node: &Node| node.covered && sheets.len() > 1;
         let kept = |node: &Node| match sight(node) {
             Mark::Open if is_covered(node) && node.first_child == 0 => Mark::Outside,
-            mark => mark,
+            mark @ (Mark::Inside | Mark::Outside | Mark::Open) => mark,
         };
         let mut boxes: Vec<Leaf> = Vec::new();
         for (s, paving) in sheets.iter().enumerate() {

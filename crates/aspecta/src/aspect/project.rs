@@ -79,7 +79,7 @@ fn add_images(paving: &Paving, boxes: &[u32], unions: &mut [Union], image: &impl
         }
         match mine[at as usize] {
             Holds::Itself => unions.iter_mut().zip(ranges).for_each(|(union, x)| union.add(x)),
-            _ => stack.extend(paving.children(at)),
+            Holds::Nothing | Holds::Below => stack.extend(paving.children(at)),
         }
     }
 }

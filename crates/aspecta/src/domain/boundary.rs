@@ -181,7 +181,7 @@ impl Boundary {
             match self.lattice.tags[node] {
                 Tag::Member if seen(&node) => return Some(true),
                 Tag::Other if seen(&node) => return Some(false),
-                _ => {}
+                Tag::Member | Tag::Other | Tag::Outside | Tag::Unknown => {}
             }
         }
         Some(field.aspect_of(analysis, self.class, pose, self.cell)? == self.aspect)

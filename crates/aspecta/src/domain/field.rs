@@ -6,7 +6,6 @@ use aspecta_kinematics::limits::margin;
 use aspecta_kinematics::modal::{Constraint, LegClosure, ModalRows, closures};
 use aspecta_kinematics::placement::{Placement, leg_gradient, moved, wrench};
 use aspecta_kinematics::{SINGULAR, WorkingMode};
-use aspecta_robot::legs::drive;
 use aspecta_robot::num::{Interval, Jet, Scalar, each, without_turns};
 use aspecta_robot::{Robot, Window};
 use nalgebra::{SMatrix, SVector};
@@ -100,8 +99,8 @@ impl<const D: usize, const N: usize> Field<'_, D, N> {
             match face {
                 Face::Of(Constraint::Det) if positive => found = Ok(self.sign),
                 Face::Of(Constraint::Det) if value < 0.0 => found = Ok(self.sign.opposite()),
-                _ if !positive => found = Err(face),
-                _ => {}
+                Face::Of(_) | Face::Cut { .. } if !positive => found = Err(face),
+                Face::Of(_) | Face::Cut { .. } => {}
             }
             positive
         });
@@ -287,7 +286,7 @@ impl<const D: usize, const N: usize> Field<'_, D, N> {
         let heights = self.heights(&legs, flat_legs(faces));
         std::array::from_fn(|j| {
             let sh = f64::from(self.mode.sign(j)) * heights[j];
-            drive(&self.robot.legs[j].actuator, &legs[j].span, &legs[j].closure, sh).value()
+            self.robot.legs[j].actuator.drive(&legs[j].span, &legs[j].closure, sh).value()
         })
     }
 
@@ -365,7 +364,7 @@ pub fn norm<const N: usize>(v: &[f64; N]) -> f64 {
 fn flat_legs(faces: &[Option<Face>; 3]) -> u8 {
     let leg = |face: &Face| match face {
         Face::Of(Constraint::Reach(j)) => 1 << j,
-        _ => 0,
+        Face::Of(Constraint::Limit(..) | Constraint::Det) | Face::Cut { .. } => 0,
     };
     faces.iter().flatten().map(leg).fold(0, |set: u8, leg: u8| set | leg)
 }

@@ -192,7 +192,7 @@ impl Side<'_> {
     fn aspects_of(&self, pose: &[f64]) -> Option<[usize; 2]> {
         let of = |class: usize| match self.analysis.locate(class, pose) {
             Place::Inside(id) => Some(id),
-            _ => None,
+            Place::Undecided | Place::Outside => None,
         };
         Some([of(self.classes.0)?, of(self.classes.1)?])
     }

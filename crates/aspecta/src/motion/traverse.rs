@@ -286,7 +286,7 @@ fn linked(analysis: &Analysis, graph: &ModeGraph, poses: &[Vec<f64>]) -> Vec<Lin
     let aspects_of = |pose: &Vec<f64>| -> Vec<usize> {
         let of = |k: usize| match holds(analysis, k, &PoseSet::Poses(vec![pose.clone()])) {
             Holds::Whole { aspect } => aspect,
-            _ => None,
+            Holds::NotWhole { .. } | Holds::Undecided { .. } => None,
         };
         (0..analysis.classes.len()).filter_map(of).collect()
     };

@@ -180,13 +180,15 @@ impl Paving {
     ) {
         let (lo, hi) = self.bounds(at);
         let meets = self.on_all_axes(poses, |a, x| x.lo <= hi[a] && lo[a] <= x.hi);
+        if !meets {
+            return;
+        }
         match sight(&self.nodes[at as usize]) {
-            _ if !meets => {}
             Mark::Outside => {}
             Mark::Open if self.nodes[at as usize].first_child != 0 => {
                 self.children(at).for_each(|child| self.descend(child, sight, poses, visit));
             }
-            _ => visit(at),
+            Mark::Open | Mark::Inside => visit(at),
         }
     }
 

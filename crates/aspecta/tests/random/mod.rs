@@ -3,7 +3,7 @@
 mod split_mix;
 
 use aspecta::num::{Interval, Scalar};
-use aspecta::robot::{Actuator, Frame, Leg, Platform, Robot, point};
+use aspecta::robot::{Actuator, Frame, Leg, Platform, Prismatic, Revolute, Robot, Strut, point};
 use std::f64::consts::PI;
 
 pub use split_mix::Random;
@@ -135,16 +135,18 @@ pub fn case(platform: Platform, spread: Spread, seed: u64) -> Case {
                 let (l, angle) = (random.within(1.0, 12.0), random.within(-PI, PI));
                 let crank: [f64; 3] =
                     std::array::from_fn(|k| l * (angle.cos() * axis(0)[k] + angle.sin() * axis(1)[k]));
-                let actuator =
-                    Actuator::Revolute { crank: Interval::decimal(l), rod: Interval::decimal(length) };
+                let actuator = Actuator::Revolute(Revolute {
+                    crank: Interval::decimal(l),
+                    rod: Interval::decimal(length),
+                });
                 (actuator, angle, minus(b, crank))
             }
             1 => {
                 let slide = random.within(-12.0, 12.0);
-                let actuator = Actuator::Prismatic { rod: Interval::decimal(length) };
+                let actuator = Actuator::Prismatic(Prismatic { rod: Interval::decimal(length) });
                 (actuator, slide, minus(b, axis(0).map(|u| slide * u)))
             }
-            _ => (Actuator::Strut, length, b),
+            _ => (Actuator::Strut(Strut), length, b),
         };
         q.push(drive);
         let leg =

@@ -2,7 +2,7 @@
 
 use super::*;
 use aspecta::num::Interval;
-use aspecta::robot::Actuator;
+use aspecta::robot::{Actuator, Revolute};
 
 #[test]
 fn lengths_that_are_none() {
@@ -55,7 +55,7 @@ fn decimals_a_double_takes_for_integers() {
     );
     let robot = Robot::from_toml(&PLANE.replacen("crank = 8", "crank = 8.000", 1), "t").unwrap();
     assert!(
-        matches!(robot.legs[0].actuator, Actuator::Revolute { crank, .. } if crank == Interval::point(8.0))
+        matches!(robot.legs[0].actuator, Actuator::Revolute(Revolute { crank, .. }) if crank == Interval::point(8.0))
     );
 }
 

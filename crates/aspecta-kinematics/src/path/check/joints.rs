@@ -276,7 +276,7 @@ impl<'a> Walk<'a> {
         let (constraint, end) = match *refusal {
             Refusal::Input(BadInput::StrutLength { leg, .. }) => (Constraint::Reach(leg - 1), to),
             Refusal::Parallel { singular_at, .. } => (Constraint::Det, from + singular_at * (to - from)),
-            _ => (Constraint::Det, to),
+            Refusal::Input(_) | Refusal::Serial { .. } | Refusal::TooLong { .. } => (Constraint::Det, to),
         };
         let pose = self.follower.pose().to_vec();
         for (i, asked) in self.pending() {

@@ -3,9 +3,9 @@
 //! In the start configuration all bodies of legs are aligned with the base, so positions and axes are written in its axes.
 
 use super::element::Element;
-use crate::figure::skeleton::{LegShape, Point, minus, times};
-use aspecta::num::Interval;
-use aspecta::robot::{Actuator, Leg, Limit, Platform};
+use crate::figure::skeleton::{LegShape, Point, times};
+use aspecta::legs::{Body, Joint};
+use aspecta::robot::{Leg, Limit, Platform};
 use std::f64::consts::TAU;
 
 /// Mass of a link. All forces are inertial, so only ratios of masses matter.
@@ -31,41 +31,10 @@ pub struct Limb<'a> {
 }
 
 impl Limb<'_> {
-    /// Its first body, with all others in it; the last one has the site `end…`, which belongs at the platform's `attachment…`.
+    /// Its first body, with the other in it; that one has the site `end…`, which belongs at the platform's `attachment…`.
     pub fn body(&self) -> Element {
-        let LegShape { a, c, .. } = *self.shape;
-        // Struts have no B: there is nothing between their driven joint and C.
-        let b = self.shape.b.unwrap_or(a);
-        match self.leg.actuator {
-            Actuator::Revolute { .. } => {
-                let rod = self.link("rod", minus(b, a), [[0.0; 3], minus(c, b)]).child(self.passive("elbow"));
-                let rod = self.ended(rod, minus(c, b));
-                self.link("crank", a, [[0.0; 3], minus(b, a)])
-                    .child(self.driven("hinge", self.axis(2)))
-                    .child(rod)
-            }
-            Actuator::Prismatic { .. } => {
-                let rod = self.link("rod", [0.0; 3], [[0.0; 3], minus(c, b)]).child(self.passive("elbow"));
-                let rod = self.ended(rod, minus(c, b));
-                self.link("slider", b, [[0.0; 3], times(0.1, minus(c, b))])
-                    .child(self.driven("slide", self.axis(0)))
-                    .child(rod)
-            }
-            Actuator::Strut => {
-                let span = minus(c, a);
-                let piston = self.link("piston", [0.0; 3], [times(0.5, span), span]);
-                let piston = piston.child(self.driven("slide", times(1.0 / self.q, span)));
-                self.link("cylinder", a, [[0.0; 3], times(0.5, span)])
-                    .child(self.passive("base"))
-                    .child(self.ended(piston, span))
-            }
-            Actuator::Spherical { .. } => {
-                let distal = self.link("distal", [0.0; 3], [b, c]).child(self.hinge("elbow", b));
-                self.link("proximal", [0.0; 3], [a, b])
-                    .child(self.driven("hinge", self.axis(2)))
-                    .child(self.ended(distal, c))
-            }
-        }
+        let [first, last] = self.leg.actuator.bodies(self.leg, self.shape, self.q);
+        self.link(&first).child(self.ended(self.link(&last), last.ends[1]))
     }
 
     /// What holds the leg and the platform together.
@@ -97,22 +66,23 @@ impl Limb<'_> {
         format!("{name}{}", self.number)
     }
 
-    /// A vector of the leg's frame, in the base.
-    fn axis(&self, k: usize) -> Point {
-        self.leg.frame[k].map(Interval::mid)
-    }
-
-    /// A body at `place` (in its parent) that is a straight piece between `ends` (in itself).
-    fn link(&self, name: &str, place: Point, ends: [Point; 2]) -> Element {
+    /// A body and the joint that it hangs on.
+    fn link(&self, body: &Body) -> Element {
+        let ends = body.ends;
         let middle = times(0.5, [0, 1, 2].map(|k| ends[0][k] + ends[1][k]));
         let inertia = LINK * self.size().powi(2);
         let inertial = Element::new("inertial").vector("pos", middle).numbers("mass", &[LINK]);
         let shape = Element::new("geom").with("type", "capsule").numbers("size", &[self.thickness]);
         Element::new("body")
-            .with("name", self.named(name))
-            .vector("pos", place)
+            .with("name", self.named(body.name))
+            .vector("pos", body.place)
             .child(inertial.vector("diaginertia", [inertia; 3]))
             .child(shape.numbers("fromto", &ends.concat()))
+            .child(match body.joint {
+                Joint::Driven { axis } => self.driven(axis),
+                Joint::Passive { name } => self.passive(name),
+                Joint::Hinge { name, axis } => self.hinge(name, axis),
+            })
     }
 
     fn ended(&self, body: Element, place: Point) -> Element {
@@ -120,7 +90,8 @@ impl Limb<'_> {
     }
 
     /// The driven joint `q…`, which reads q in the start configuration.
-    fn driven(&self, kind: &str, axis: Point) -> Element {
+    fn driven(&self, axis: Point) -> Element {
+        let kind = if self.leg.actuator.is_angle() { "hinge" } else { "slide" };
         let joint =
             Element::new("joint").with("name", self.named("q")).with("type", kind).vector("axis", axis);
         let joint = joint.numbers("ref", &[self.reading()]).numbers("armature", &[self.armature()]);
@@ -149,10 +120,7 @@ impl Limb<'_> {
 
     /// A typical length of the leg.
     fn size(&self) -> f64 {
-        match self.leg.actuator {
-            Actuator::Strut => self.q,
-            actuator => actuator.size(),
-        }
+        self.leg.actuator.size_at(self.q)
     }
 
     fn armature(&self) -> f64 {

@@ -139,7 +139,7 @@ impl Lattice {
                 None => match analysis.locate(class, &pose) {
                     Place::Inside(id) if id == aspect => Tag::Member,
                     Place::Inside(_) => Tag::Other,
-                    _ => Tag::Unknown,
+                    Place::Undecided | Place::Outside => Tag::Unknown,
                 },
             }
         };

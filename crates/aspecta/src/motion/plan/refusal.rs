@@ -190,7 +190,9 @@ pub(in crate::motion) fn sign_at(
                 let joint = robot.legs[leg].limits[limit].joint();
                 return Err(Refusal::BeyondLimit { end, leg: leg + 1, limit: limit + 1, joint });
             }
-            _ => {}
+            Along::Outside { constraint: Constraint::Det, .. }
+            | Along::Crossed { .. }
+            | Along::Undecided { .. } => {}
         }
     }
     Err(Refusal::OnBoundary(end))

@@ -205,6 +205,6 @@ impl Spot {
 fn sight(class: ClassSet, depth: u32) -> impl Fn(&Node) -> Mark {
     move |node| match node.of_classes(class) {
         Mark::Open if node.first_child == 0 || u32::from(node.depth) >= depth => Mark::Outside,
-        mark => mark,
+        mark @ (Mark::Inside | Mark::Outside | Mark::Open) => mark,
     }
 }
