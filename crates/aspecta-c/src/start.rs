@@ -6,7 +6,11 @@ use aspecta::motion::follow::{Follower, InverseFollower};
 use aspecta::robot::{Robot, catalogue};
 use std::ffi::{CStr, c_char};
 
-/// See `aspecta.h`.
+/// Starts at the pose that a joint vector means, at least roughly.
+///
+/// `robot` is a name of the catalogue ("five-bar") or the text of a robot file, `n` the length of both vectors.
+/// Returns NULL if that cannot be; then `message` says why, in at most `size` bytes, the terminating zero included.
+/// `message` may be NULL.
 ///
 /// # Safety
 /// `robot` is null or a terminated string; `pose` and `q` are null or hold `n` numbers; `message` is null or has room for
@@ -31,10 +35,10 @@ pub unsafe extern "C" fn aspecta_start(
     unsafe { handle(started().map(aspecta_follower), message, size) }
 }
 
-/// See `aspecta.h`.
+/// The inverse problem: starts at a pose, in the working mode given as signs of B_jj, such as "+-+".
 ///
 /// # Safety
-/// As [`aspecta_start`]; `mode` is null or a terminated string.
+/// As of aspecta_start; `mode` is null or a terminated string.
 #[allow(unsafe_code)]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn aspecta_inverse_start(
@@ -57,10 +61,10 @@ pub unsafe extern "C" fn aspecta_inverse_start(
     unsafe { handle(started().map(aspecta_inverse), message, size) }
 }
 
-/// See `aspecta.h`.
+/// Frees a handle; NULL is allowed.
 ///
 /// # Safety
-/// `follower` is null or comes from [`aspecta_start`], and is not used again.
+/// `follower` is null or comes from aspecta_start, and is not used again.
 #[allow(unsafe_code)]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn aspecta_free(follower: *mut aspecta_follower) {
@@ -70,10 +74,10 @@ pub unsafe extern "C" fn aspecta_free(follower: *mut aspecta_follower) {
     }
 }
 
-/// See `aspecta.h`.
+/// Frees a handle of the inverse problem; NULL is allowed.
 ///
 /// # Safety
-/// `follower` is null or comes from [`aspecta_inverse_start`], and is not used again.
+/// `follower` is null or comes from aspecta_inverse_start, and is not used again.
 #[allow(unsafe_code)]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn aspecta_inverse_free(follower: *mut aspecta_inverse) {

@@ -1,33 +1,39 @@
 //! Steps.
 
-use crate::{BAD_INPUT, NULL, OK, PARALLEL, SERIAL, TOO_LONG, aspecta_follower, aspecta_inverse};
+use crate::aspecta_status::{
+    self, ASPECTA_BAD_INPUT, ASPECTA_NULL, ASPECTA_OK, ASPECTA_PARALLEL, ASPECTA_SERIAL, ASPECTA_TOO_LONG,
+};
+use crate::{aspecta_follower, aspecta_inverse};
 use aspecta::kinematics::WorkingMode;
 use aspecta::motion::follow::Refusal;
+use std::ffi::c_int;
 
-/// See `aspecta.h`.
+/// What is said of a step.
 #[allow(non_camel_case_types)]
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct aspecta_report {
-    /// Share of the step that is proved.
+    /// Up to where the step is proved, a share of it; 1 if it is certified.
     pub proved: f64,
-    /// Where the singularity is estimated.
+    /// Refused steps: where the singularity is estimated, a share of the step; NaN if there is none. Numerical.
     pub singular_at: f64,
-    /// Distance left.
+    /// Refused steps: distance left from the singularity at `proved`, without unit: the smallest singular value of the
+    /// homogeneous A, or |B_jj| / max. NaN if certified. Numerical.
     pub distance: f64,
-    /// Bound of the error of translations.
+    /// Certified direct steps: bound of the error of each translation.
     pub length_error: f64,
-    /// Bound of the error of rotations.
+    /// Certified direct steps: bound of the error of each rotation (rad).
     pub angle_error: f64,
-    /// Bit j: B_jj < 0.
+    /// Bit j: B_jj < 0 for leg j + 1. The working mode.
     pub negative_legs: u32,
-    /// Stretches tried.
+    /// Stretches that were tried.
     pub stretches: u32,
-    /// Whether the aspect is proved to be the same.
+    /// Certified steps, 1 or 0: the configuration is proved to stay in its generalized aspect. 0 after a direct step: a
+    /// leg may have met a serial singularity; after an inverse step: det A may have vanished.
     pub same_aspect: u32,
-    /// Whether all joints are within their limits.
+    /// Certified steps, 1 or 0: all joints are within their limits at the end. Numerical.
     pub within_limits: u32,
-    /// The leg of a serial singularity.
+    /// ASPECTA_SERIAL: the leg, from 1; else 0.
     pub leg: u32,
 }
 
@@ -55,27 +61,29 @@ impl aspecta_report {
     }
 
     /// Fills in why a step was refused.
-    fn refuse(&mut self, refusal: Refusal) -> i32 {
+    fn refuse(&mut self, refusal: Refusal) -> aspecta_status {
         match refusal {
-            Refusal::Input(_) => BAD_INPUT,
+            Refusal::Input(_) => ASPECTA_BAD_INPUT,
             Refusal::Parallel { proved, singular_at, distance } => {
                 (self.proved, self.singular_at, self.distance) = (proved, singular_at, distance);
-                PARALLEL
+                ASPECTA_PARALLEL
             }
             Refusal::Serial { leg, proved, singular_at, distance } => {
                 (self.proved, self.singular_at, self.distance) = (proved, singular_at, distance);
                 self.leg = leg as u32;
-                SERIAL
+                ASPECTA_SERIAL
             }
             Refusal::TooLong { proved, distance } => {
                 (self.proved, self.distance) = (proved, distance);
-                TOO_LONG
+                ASPECTA_TOO_LONG
             }
         }
     }
 }
 
-/// See `aspecta.h`.
+/// Goes on to the joint vector `q`; writes the pose, if certified, and the report. `report` may be NULL.
+///
+/// Returns a status.
 ///
 /// # Safety
 /// `follower` is null or a live handle that no other thread uses; `q` and `pose` are null or hold n numbers; `report` is
@@ -87,9 +95,9 @@ pub unsafe extern "C" fn aspecta_step(
     q: *const f64,
     pose: *mut f64,
     report: *mut aspecta_report,
-) -> i32 {
+) -> c_int {
     if follower.is_null() || q.is_null() || pose.is_null() {
-        return NULL;
+        return ASPECTA_NULL as c_int;
     }
     // SAFETY: not null, and the rest is the caller's promise.
     let (follower, q) = unsafe {
@@ -105,19 +113,21 @@ pub unsafe extern "C" fn aspecta_step(
             said = aspecta_report::new(step.mode);
             said.certify(step.stretches, step.mode_kept, step.within_limits);
             (said.length_error, said.angle_error) = (step.length_error, step.angle_error);
-            OK
+            ASPECTA_OK
         }
         Err(refusal) => said.refuse(refusal),
     };
     // SAFETY: the caller's promise.
     unsafe { tell(report, said) };
-    status
+    status as c_int
 }
 
-/// See `aspecta.h`.
+/// Goes on to `pose`; writes the joint vector, if certified, and the report. `report` may be NULL.
+///
+/// Returns a status.
 ///
 /// # Safety
-/// As [`aspecta_step`].
+/// As of aspecta_step.
 #[allow(unsafe_code)]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn aspecta_inverse_step(
@@ -125,9 +135,9 @@ pub unsafe extern "C" fn aspecta_inverse_step(
     pose: *const f64,
     q: *mut f64,
     report: *mut aspecta_report,
-) -> i32 {
+) -> c_int {
     if follower.is_null() || q.is_null() || pose.is_null() {
-        return NULL;
+        return ASPECTA_NULL as c_int;
     }
     // SAFETY: not null, and the rest is the caller's promise.
     let (follower, pose) = unsafe {
@@ -141,46 +151,54 @@ pub unsafe extern "C" fn aspecta_inverse_step(
             // SAFETY: not null, and room for n numbers; `pose` is not read any more, should they be the same.
             unsafe { write(q, step.q()) };
             said.certify(step.stretches, step.regular, step.within_limits);
-            OK
+            ASPECTA_OK
         }
         Err(refusal) => said.refuse(refusal),
     };
     // SAFETY: the caller's promise.
     unsafe { tell(report, said) };
-    status
+    status as c_int
 }
 
-/// See `aspecta.h`.
+/// The pose and the joint vector of the last certified step. Either may be NULL.
+///
+/// Returns a status.
 ///
 /// # Safety
 /// `follower` is null or a live handle that no other thread changes; `pose` and `q` are null or have room for n numbers.
 #[allow(unsafe_code)]
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn aspecta_last(follower: *const aspecta_follower, pose: *mut f64, q: *mut f64) -> i32 {
+pub unsafe extern "C" fn aspecta_last(
+    follower: *const aspecta_follower,
+    pose: *mut f64,
+    q: *mut f64,
+) -> c_int {
     // SAFETY: null or valid, by the caller's promise.
     let last = unsafe { follower.as_ref() }.map(|follower| (follower.0.pose(), follower.0.q()));
     // SAFETY: the caller's promise.
     unsafe { copy(last, pose, q) }
 }
 
-/// See `aspecta.h`.
+/// The pose and the joint vector of the last certified step of the inverse problem. Either may be NULL.
+///
+/// Returns a status.
 ///
 /// # Safety
-/// As [`aspecta_last`].
+/// As of aspecta_last.
 #[allow(unsafe_code)]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn aspecta_inverse_last(
     follower: *const aspecta_inverse,
     pose: *mut f64,
     q: *mut f64,
-) -> i32 {
+) -> c_int {
     // SAFETY: null or valid, by the caller's promise.
     let last = unsafe { follower.as_ref() }.map(|follower| (follower.0.pose(), follower.0.q()));
     // SAFETY: the caller's promise.
     unsafe { copy(last, pose, q) }
 }
 
-/// See `aspecta.h`.
+/// Degrees of freedom; 0 for NULL.
 ///
 /// # Safety
 /// `follower` is null or a live handle.
@@ -208,14 +226,14 @@ unsafe fn tell(report: *mut aspecta_report, said: aspecta_report) {
 /// # Safety
 /// `pose` and `q` are null or have room for them.
 #[allow(unsafe_code)]
-unsafe fn copy(last: Option<(&[f64], &[f64])>, pose: *mut f64, q: *mut f64) -> i32 {
-    let Some(last) = last else { return NULL };
+unsafe fn copy(last: Option<(&[f64], &[f64])>, pose: *mut f64, q: *mut f64) -> c_int {
+    let Some(last) = last else { return ASPECTA_NULL as c_int };
     // SAFETY: the caller's promise.
     unsafe {
         write(pose, last.0);
         write(q, last.1);
     }
-    OK
+    ASPECTA_OK as c_int
 }
 
 /// Copies `values` to `to`, if that is not null.

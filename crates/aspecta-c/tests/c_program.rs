@@ -1,6 +1,7 @@
 //! A C program, compiled with the system's compiler and linked with either library.
 
 use aspecta_c::aspecta_report;
+use aspecta_c::aspecta_status::*;
 use std::mem::{offset_of, size_of};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -46,10 +47,17 @@ fn check_layout(text: &str) {
         ($($field:ident)*) => { $(assert_eq!(value(text, stringify!($field)), offset_of!(aspecta_report, $field));)* };
     }
     same!(proved singular_at distance length_error angle_error negative_legs stretches same_aspect within_limits leg);
-    macro_rules! constants {
-        ($($name:ident)*) => { $(assert_eq!(value(text, stringify!($name)) as i32, aspecta_c::$name);)* };
+    let statuses = [
+        ("OK", ASPECTA_OK),
+        ("PARALLEL", ASPECTA_PARALLEL),
+        ("SERIAL", ASPECTA_SERIAL),
+        ("TOO_LONG", ASPECTA_TOO_LONG),
+        ("BAD_INPUT", ASPECTA_BAD_INPUT),
+        ("NULL", ASPECTA_NULL),
+    ];
+    for (name, status) in statuses {
+        assert_eq!(value(text, name), status as usize);
     }
-    constants!(OK PARALLEL SERIAL TOO_LONG BAD_INPUT NULL);
 }
 
 #[cfg(unix)]
