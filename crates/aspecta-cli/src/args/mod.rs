@@ -1,6 +1,6 @@
 //! What commands are told: options that several of them have, each typed once, and what their values mean.
 //!
-//! Where commands use an option for different things, they give it its help by `mut_arg`.
+//! Where commands use an option for different things, each says what for by [`help`].
 
 pub mod away;
 pub mod budget;
@@ -8,6 +8,7 @@ pub mod drawing;
 pub mod fix;
 pub mod format;
 pub mod given;
+pub mod help;
 pub mod making;
 pub mod mode;
 pub mod out;

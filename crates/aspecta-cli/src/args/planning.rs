@@ -3,6 +3,7 @@
 use super::away::Away;
 use super::budget;
 use super::format::ShownArgs;
+use super::help::help;
 use super::out::OutDir;
 use super::rate::Rate;
 use super::threads::Threads;
@@ -57,7 +58,7 @@ const OUT: &str = "\
 
 /// The motion to be written besides.
 #[derive(Args)]
-#[command(mut_arg("out", |a| a.help(OUT)))]
+#[command(mut_args(help("out", OUT)))]
 pub struct Moving {
     /// Write the motion under joint limits to this CSV file: time, pose, joints, their speeds and accelerations. It needs --speed and --acceleration. The robot rests at each
     /// waypoint, but not where a leg changes its posture

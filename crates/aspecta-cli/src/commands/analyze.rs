@@ -3,6 +3,7 @@
 use crate::args::budget;
 use crate::args::fix::FixArg;
 use crate::args::format::JsonArg;
+use crate::args::help::help;
 use crate::args::out::OutDir;
 use crate::args::robot::RobotArg;
 use crate::args::threads::{self, Threads};
@@ -20,10 +21,13 @@ use std::path::PathBuf;
 
 /// Arguments of `analyze`.
 #[derive(Args)]
-#[command(mut_arg("out", |a| a.help("Write report.html and its figures into this directory")))]
-#[command(mut_arg("fix", |a| a.help(FIX)))]
-#[command(mut_arg("json", |a| a.help("Print the whole result as JSON, and nothing else, on stdout (angles in radians)")))]
-#[command(mut_arg("threads", |a| a.help(threads::OF_NO_WEIGHT)))]
+#[command(mut_args(help("out", "Write report.html and its figures into this directory")))]
+#[command(mut_args(help("fix", FIX)))]
+#[command(mut_args(help(
+    "json",
+    "Print the whole result as JSON, and nothing else, on stdout (angles in radians)"
+)))]
+#[command(mut_args(help("threads", threads::OF_NO_WEIGHT)))]
 pub struct Analyze {
     #[command(flatten)]
     robot: RobotArg,

@@ -1,6 +1,7 @@
 //! `aspecta check-path`: whether a path meets a singularity, or comes too near to one.
 
 use crate::args::format::FormatArgs;
+use crate::args::help::help;
 use crate::args::out::OutDir;
 use crate::args::path::PathArgs;
 use crate::failure::{Answer, Failure};
@@ -18,7 +19,7 @@ use std::path::{Path, PathBuf};
 
 /// Arguments of `check-path`.
 #[derive(Args)]
-#[command(mut_arg("out", |a| a.help(OUT)))]
+#[command(mut_args(help("out", OUT)))]
 #[command(after_help = "\
 A path of poses is checked in a working mode, a path of joint vectors from the pose on in which it starts. What is said holds \
 between the lines of the file too: it is proved by interval arithmetic, or said to be undecided.\n\

@@ -2,6 +2,7 @@
 
 use crate::args::fix::FixArg;
 use crate::args::format::TableArgs;
+use crate::args::help::{help, value_name};
 use crate::args::mode::ModeArg;
 use crate::args::robot::RobotArg;
 use crate::args::threads::{self, Threads};
@@ -21,9 +22,10 @@ use std::io::Write;
 ///
 /// A cusp lets the platform change its assembly mode without meeting a singularity, by a loop of the joints round it.
 #[derive(Args)]
-#[command(mut_arg("fix", |a| a.help(FIX).value_name("JOINT=VALUE")))]
-#[command(mut_arg("mode", |a| a.help("Only the cusps in this working mode, such as `+-+`")))]
-#[command(mut_arg("threads", |a| a.help(threads::OF_NO_WEIGHT)))]
+#[command(mut_args(help("fix", FIX)))]
+#[command(mut_args(value_name("fix", "JOINT=VALUE")))]
+#[command(mut_args(help("mode", "Only the cusps in this working mode, such as `+-+`")))]
+#[command(mut_args(help("threads", threads::OF_NO_WEIGHT)))]
 #[command(after_help = EXAMPLE)]
 pub struct Cusps {
     #[command(flatten)]

@@ -3,6 +3,7 @@
 use crate::args::drawing::Drawing;
 use crate::args::fix::FixArg;
 use crate::args::format::JsonArg;
+use crate::args::help::{help, value_name};
 use crate::args::making::Making;
 use crate::args::mode::ModeArg;
 use crate::args::out::OutDir;
@@ -27,11 +28,15 @@ use std::path::{Path, PathBuf};
 
 /// Arguments of `domains`.
 #[derive(Args)]
-#[command(mut_arg("out", |a| a.help(OUT)))]
-#[command(mut_arg("fix", |a| a.help(FIX)))]
-#[command(mut_arg("json", |a| a.help("Print the whole result as JSON, and nothing else, on stdout (angles in radians)")))]
-#[command(mut_arg("mode", |a| a.help("Only aspects of this working mode, such as `+-+`").value_name("SIGNS")))]
-#[command(mut_arg("threads", |a| a.help(threads::OF_NO_WEIGHT)))]
+#[command(mut_args(help("out", OUT)))]
+#[command(mut_args(help("fix", FIX)))]
+#[command(mut_args(help(
+    "json",
+    "Print the whole result as JSON, and nothing else, on stdout (angles in radians)"
+)))]
+#[command(mut_args(help("mode", "Only aspects of this working mode, such as `+-+`")))]
+#[command(mut_args(value_name("mode", "SIGNS")))]
+#[command(mut_args(help("threads", threads::OF_NO_WEIGHT)))]
 pub struct Domains {
     /// Name from `aspecta robots`, path of a robot file, or a file written by --save: then nothing is computed
     robot: String,

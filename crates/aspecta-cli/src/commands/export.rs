@@ -1,5 +1,6 @@
 //! `aspecta export`: robots as files of other programs.
 
+use crate::args::help::{help, value_name};
 use crate::args::mode::ModeArg;
 use crate::args::robot::RobotArg;
 use crate::failure::{Answer, Failure};
@@ -28,7 +29,11 @@ enum Format {
 
 /// Arguments of `export mjcf`.
 #[derive(Args)]
-#[command(mut_arg("mode", |a| a.help("The working mode in which it starts, such as `+-+` [default: that farthest from singularities]").value_name("SIGNS")))]
+#[command(mut_args(help(
+    "mode",
+    "The working mode in which it starts, such as `+-+` [default: that farthest from singularities]"
+)))]
+#[command(mut_args(value_name("mode", "SIGNS")))]
 struct Mjcf {
     #[command(flatten)]
     robot: RobotArg,

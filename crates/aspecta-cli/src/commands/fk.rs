@@ -2,6 +2,7 @@
 
 use crate::args::format::ShownArgs;
 use crate::args::given::JointVectors;
+use crate::args::help::help;
 use crate::args::mode::ModeArg;
 use crate::args::robot::RobotArg;
 use crate::failure::{Answer, Failure};
@@ -13,7 +14,7 @@ use std::io::Write;
 
 /// Arguments of `fk`.
 #[derive(Args)]
-#[command(mut_arg("mode", |a| a.help("Only the solutions in this working mode, such as `+-`")))]
+#[command(mut_args(help("mode", "Only the solutions in this working mode, such as `+-`")))]
 pub struct Fk {
     #[command(flatten)]
     robot: RobotArg,

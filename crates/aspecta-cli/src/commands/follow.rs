@@ -1,6 +1,7 @@
 //! `aspecta follow`: one solution along a stream, a line answered as soon as it is read.
 
 use crate::args::format::ShownArgs;
+use crate::args::help::help;
 use crate::args::robot::RobotArg;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns, Row, Rows};
@@ -15,7 +16,7 @@ use std::io::Write;
 
 /// Arguments of `follow`.
 #[derive(Args)]
-#[command(mut_arg("deg", |a| a.help("Angles of the input and of what people read are in degrees")))]
+#[command(mut_args(help("deg", "Angles of the input and of what people read are in degrees")))]
 #[command(after_help = "\
 The first line must belong to the pose: it is proved which of its solutions is meant. Every further line is \
 joined to the one before by a straight segment of joint vectors, and the pose printed is proved to be the end of the solution curve \

@@ -2,6 +2,7 @@
 
 use crate::args::format::ShownArgs;
 use crate::args::given::{PosesOrJoints, Query};
+use crate::args::help::help;
 use crate::args::making::Making;
 use crate::args::mode::ModeArg;
 use crate::args::threads::Threads;
@@ -20,7 +21,7 @@ use std::io::Write;
 
 /// Arguments of `locate`.
 #[derive(Args)]
-#[command(mut_arg("mode", |a| a.help("Only in this working mode, such as `+-`")))]
+#[command(mut_args(help("mode", "Only in this working mode, such as `+-`")))]
 pub struct Locate {
     /// A file written by `aspecta domains --save`; or the name from `aspecta robots` or the robot file of a robot, whose
     /// aspects are then found and cut into regions first

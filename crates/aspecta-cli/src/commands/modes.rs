@@ -1,6 +1,7 @@
 //! `aspecta modes`: which aspects a robot can go between by changing the postures of its legs.
 
 use crate::args::format::TableArgs;
+use crate::args::help::help;
 use crate::args::out::OutDir;
 use crate::args::planning::Analysing;
 use crate::args::robot::RobotArg;
@@ -21,8 +22,8 @@ use std::io::Write;
 /// A leg changes its posture in its serial singularity (B_jj = 0). As long as det A ≠ 0 there, the robot stays under control, and the
 /// aspects of two working modes become one larger domain of motion.
 #[derive(Args)]
-#[command(mut_arg("out", |a| a.help("Draw the graph: modes.svg in this directory")))]
-#[command(mut_arg("deg", |a| a.help("Angles of the tables are in degrees")))]
+#[command(mut_args(help("out", "Draw the graph: modes.svg in this directory")))]
+#[command(mut_args(help("deg", "Angles of the tables are in degrees")))]
 #[command(after_help = EXAMPLES)]
 pub struct Modes {
     #[command(flatten)]

@@ -1,6 +1,7 @@
 //! `aspecta robots`: the catalogue.
 
 use crate::args::format::JsonArg;
+use crate::args::help::help;
 use crate::failure::{Answer, Failure};
 use crate::input;
 use crate::output::{self, Align, FORMAT_VERSION, Table};
@@ -11,7 +12,7 @@ use std::io::Write;
 
 /// Arguments of `robots`.
 #[derive(Args)]
-#[command(mut_arg("json", |a| a.help("Print the list as JSON")))]
+#[command(mut_args(help("json", "Print the list as JSON")))]
 #[command(args_conflicts_with_subcommands = true)]
 pub struct Robots {
     #[command(subcommand)]

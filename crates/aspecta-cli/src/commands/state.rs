@@ -2,6 +2,7 @@
 
 use crate::args::format::ShownArgs;
 use crate::args::given::{Poses, Query};
+use crate::args::help::help;
 use crate::args::mode::ModeArg;
 use crate::args::robot::RobotArg;
 use crate::failure::{Answer, Failure};
@@ -21,8 +22,11 @@ const NOT_CLOSED: f64 = 1e-3;
 
 /// Arguments of `state`.
 #[derive(Args)]
-#[command(mut_arg("file", |a| a.help("A CSV file of poses, or of poses and joint vectors, one a line; `-` reads stdin")))]
-#[command(mut_arg("mode", |a| a.help("Only the inverse solution in this working mode, such as `+-`")))]
+#[command(mut_args(help(
+    "file",
+    "A CSV file of poses, or of poses and joint vectors, one a line; `-` reads stdin"
+)))]
+#[command(mut_args(help("mode", "Only the inverse solution in this working mode, such as `+-`")))]
 pub struct State {
     #[command(flatten)]
     robot: RobotArg,

@@ -1,6 +1,7 @@
 //! `aspecta traverse`: which aspects hold a whole set of poses.
 
 use crate::args::format::TableArgs;
+use crate::args::help::help;
 use crate::args::planning::Analysing;
 use crate::args::robot::RobotArg;
 use crate::failure::{Answer, Failure};
@@ -19,7 +20,7 @@ use std::io::Write;
 
 /// Arguments of `traverse`.
 #[derive(Args)]
-#[command(mut_arg("deg", |a| a.help("Angles of the input and of the tables are in degrees")))]
+#[command(mut_args(help("deg", "Angles of the input and of the tables are in degrees")))]
 #[command(after_help = EXAMPLES)]
 pub struct Traverse {
     #[command(flatten)]

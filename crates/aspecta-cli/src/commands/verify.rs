@@ -1,6 +1,7 @@
 //! `aspecta verify`: whether a certificate proves what it claims.
 
 use crate::args::format::JsonArg;
+use crate::args::help::help;
 use crate::args::threads::Threads;
 use crate::failure::{Answer, Failure};
 use crate::input;
@@ -16,7 +17,7 @@ use std::path::{Path, PathBuf};
 
 /// Arguments of `verify`.
 #[derive(Args)]
-#[command(mut_arg("json", |a| a.help("Print the verdict as JSON, and nothing else, on stdout")))]
+#[command(mut_args(help("json", "Print the verdict as JSON, and nothing else, on stdout")))]
 pub struct Verify {
     /// The certificate
     file: PathBuf,
