@@ -167,6 +167,7 @@ pub fn unit_of_moments(robot: &Robot) -> Interval {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Kinematics;
     use crate::for_platform;
     use aspecta_robot::catalogue;
 

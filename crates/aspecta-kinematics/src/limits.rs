@@ -1,7 +1,7 @@
 //! Joint limits as functions that are positive strictly inside.
 
 use super::placement::{Placement, into_frame};
-use aspecta_robot::legs::{Closure, Drive, sum_of_squares};
+use aspecta_robot::legs::{Closure, Drive};
 use aspecta_robot::num::{Interval, Scalar, dot, dot_constant, each};
 use aspecta_robot::{Leg, Limit};
 

@@ -4,7 +4,6 @@ use super::placement::Placement;
 use super::{KinematicsError, for_platform};
 use crate::Kinematics;
 use aspecta_robot::Robot;
-use aspecta_robot::legs::sum_of_squares;
 use serde::Serialize;
 
 /// A leg that cannot close at a pose.

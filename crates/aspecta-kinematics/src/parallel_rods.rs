@@ -153,6 +153,7 @@ impl<'a> Track<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Kinematics;
     use aspecta_robot::catalogue::find;
 
     fn rods_of(robot: &Robot) -> Vec<ParallelRods> {

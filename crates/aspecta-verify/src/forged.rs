@@ -7,7 +7,7 @@ use aspecta_robot::chart::Fold;
 use aspecta_robot::{Actuator, Leg, Platform, Revolute, Robot, WorkingMode, catalogue};
 
 fn sphere() -> Robot {
-    Robot::from_toml(include_str!("../../tests/fixtures/sphere.toml"), "sphere.toml").unwrap()
+    Robot::from_toml(include_str!("../../aspecta/tests/fixtures/sphere.toml"), "sphere.toml").unwrap()
 }
 
 /// A certificate of one leaf.

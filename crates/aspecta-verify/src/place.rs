@@ -8,7 +8,7 @@ use aspecta_robot::AXES;
 use aspecta_robot::WorkingMode;
 use aspecta_robot::chart::{Bend, Chain, Chart, Fold};
 use aspecta_robot::num::{Interval, Jet, Scalar};
-use aspecta_robot::{Actuator, Robot, Window};
+use aspecta_robot::{Robot, Window};
 use std::cell::OnceCell;
 use std::rc::Rc;
 

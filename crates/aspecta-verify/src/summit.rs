@@ -254,7 +254,6 @@ fn directions(count: usize, normals: &[Direction]) -> Option<Vec<(Direction, Opt
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::certificate::Scale;
     use crate::place::{Place, Setting};
     use aspecta_robot::chart::Chart;
     use aspecta_robot::num::Random;
@@ -272,7 +271,7 @@ mod tests {
     /// At random configurations of a robot, whichever legs count as loose; returns how many velocities held some h_j.
     fn look_at<const D: usize>(robot: &Robot) -> usize {
         let (window, modes) = (robot.slice(&[]).unwrap(), robot.working_modes());
-        let scale = Scale::of(robot, &window, &modes);
+        let scale = crate::tests::scale(robot, &window, &modes);
         let setting = Setting::new(robot, &Chart::Pose, window, &scale);
         let (mut random, mut level) = (Random::new(5), 0);
         for k in 0..400 {
@@ -310,7 +309,7 @@ mod tests {
         for name in ["delta", "linear-delta", "orthoglide"] {
             assert!(look_at::<3>(&catalogue::find(name).unwrap()) > 50, "{name}");
         }
-        let sphere = include_str!("../../tests/fixtures/sphere.toml");
+        let sphere = include_str!("../../aspecta/tests/fixtures/sphere.toml");
         assert!(look_at::<3>(&Robot::from_toml(sphere, "sphere.toml").unwrap()) > 50);
     }
 }

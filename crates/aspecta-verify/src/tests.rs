@@ -4,26 +4,38 @@ mod chains;
 mod summits;
 
 use super::*;
-use crate::aspect::{Options, analyze};
-use crate::certificate::{Claim, Entry, Join, Leaf};
-use crate::paving::{Budget, ClassSet};
+use crate::certificate::{Claim, Entry, Join, Leaf, Scale};
+use aspecta::aspect::{Options, analyze};
+use aspecta::paving::Budget;
+use aspecta_robot::ClassSet;
 use aspecta_robot::num::Scalar;
-use aspecta_robot::{Leg as RobotLeg, Limit, Platform, Revolute, Robot, catalogue};
+use aspecta_robot::{Leg as RobotLeg, Limit, Platform, Revolute, Robot, Window, WorkingMode, catalogue};
 use proptest::prelude::*;
 use std::sync::LazyLock;
 use std::sync::atomic::AtomicBool;
 
+/// A certificate that the library wrote, read as any other is. (Under test this crate has types of its own.)
+fn written(robot: &Robot, options: &Options) -> Certificate {
+    let certificate = analyze(robot, options, &Control::unwatched()).unwrap().certificate.unwrap();
+    Certificate::from_json(certificate.to_json().unwrap().as_bytes()).unwrap()
+}
+
+/// The scale that the library takes for a robot.
+pub(crate) fn scale(robot: &Robot, window: &Window, modes: &[WorkingMode]) -> Scale {
+    let scale = aspecta::aspect::scale(robot, window, modes);
+    serde_json::from_value(serde_json::to_value(scale).unwrap()).unwrap()
+}
+
 /// What an analysis proves of a robot, or of the slice `fix`: its leaves, joins and seams. Nothing is claimed.
 fn certified(robot: &Robot, fix: &[(usize, f64)], budget: &Budget) -> Certificate {
     let options = Options { budget: *budget, fix: fix.to_vec(), certificate: true, ..Options::default() };
-    let control = Control { cancelled: &AtomicBool::new(false), progress: &|_| {} };
-    let mut certificate = analyze(robot, &options, &control).unwrap().certificate.unwrap();
+    let mut certificate = written(robot, &options);
     certificate.claims.fill(Claim { low: 0, high: None });
     certificate
 }
 
 fn checked(certificate: &Certificate) -> Verdict {
-    verify(certificate, &Control { cancelled: &AtomicBool::new(false), progress: &|_| {} })
+    verify(certificate, &Control::unwatched())
 }
 
 /// A certificate that claims the most that its leaves and links prove.
@@ -261,8 +273,7 @@ fn robots_of_the_catalogue() {
 fn certified_slice(name: &str, fix: Vec<(usize, f64)>, modes: &[&str], budget: Budget) -> Certificate {
     let modes = modes.iter().map(|mode| mode.parse().unwrap()).collect();
     let options = Options { budget, fix, modes, certificate: true };
-    let control = Control { cancelled: &AtomicBool::new(false), progress: &|_| {} };
-    analyze(&catalogue::find(name).unwrap(), &options, &control).unwrap().certificate.unwrap()
+    written(&catalogue::find(name).unwrap(), &options)
 }
 
 /// Where a leg stretches out to its limit of reach and its q counts as a coordinate of its own, det A has to be counted from the middle of q.

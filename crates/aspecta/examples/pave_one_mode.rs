@@ -1,6 +1,7 @@
 //! Paves one working mode of the paper's five-bar and prints what `benches/peers` compares, as JSON:
 //! `cargo run --release -p aspecta --example pave_one_mode -- ++ 11 20` (mode, depth, repetitions; these if none are given).
 
+use aspecta::Kinematics;
 use aspecta::kinematics::{KinematicsError, WorkingMode};
 use aspecta::paving::{Budget, Control, Mark, Paving};
 use aspecta::robot::Robot;

@@ -1,5 +1,6 @@
 //! Every built-in robot is a working robot with the figures it claims.
 
+use aspecta::Kinematics;
 use aspecta::kinematics::Solution;
 use aspecta::num::Interval;
 use aspecta::robot::{Actuator, BASE_FRAME, Platform, Revolute, Robot, catalogue};

@@ -4,10 +4,10 @@
 
 mod random;
 
+use aspecta::Kinematics;
 use aspecta::kinematics::placement::Placement;
 use aspecta::kinematics::{DirectSolutions, KinematicsError, Solution};
 use aspecta::num::Interval;
-use aspecta::robot::legs::equation;
 use aspecta::robot::{Actuator, BASE_FRAME, Leg, Platform, Prismatic, Revolute, Robot, Strut, point};
 use nalgebra::DMatrix;
 use random::{Case, Spread, case};

@@ -5,7 +5,6 @@ use aspecta::kinematics::KinematicsError;
 use aspecta::kinematics::placement::Placement;
 use aspecta::kinematics::{SINGULAR, Singularity, State};
 use aspecta::num::Interval;
-use aspecta::robot::legs::equation;
 use aspecta::robot::{
     Actuator, BASE_FRAME, Leg, Platform, Prismatic, Revolute, Robot, Spherical, Strut, point,
 };

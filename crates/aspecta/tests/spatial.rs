@@ -6,6 +6,7 @@
 #[path = "random/split_mix.rs"]
 mod split_mix;
 
+use aspecta::Kinematics;
 use aspecta::kinematics::{DirectSolutions, KinematicsError};
 use aspecta::num::Interval;
 use aspecta::robot::{Actuator, Leg, Platform, Prismatic, Revolute, Robot, Spherical};

@@ -1,7 +1,6 @@
 //! `aspecta verify`: exit statuses and what is said.
 
 use crate::{aspecta, json, stdout};
-use aspecta::aspect::Scale;
 use aspecta::certificate::{Certificate, Claim, Entry};
 use aspecta::paving::{Budget, Control, Paving};
 use aspecta::robot::{Robot, catalogue};

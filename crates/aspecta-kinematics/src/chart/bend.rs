@@ -80,12 +80,13 @@ impl Cap {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::chart::Coordinates;
     use crate::chart::{Chart, charts};
     use aspecta_robot::catalogue;
     use aspecta_robot::num::Random;
     use std::f64::consts::PI;
 
-    const FOLDING: &str = include_str!("../../../tests/fixtures/folding_sphere.toml");
+    const FOLDING: &str = include_str!("../../../aspecta/tests/fixtures/folding_sphere.toml");
 
     fn folding() -> Robot {
         Robot::from_toml(FOLDING, "folding_sphere.toml").unwrap()
@@ -136,9 +137,9 @@ mod tests {
             let mut here = Vec::new();
             for (k, chain) in found.iter().enumerate() {
                 let bend = chain.bend.as_ref().unwrap();
-                let margin = bend.cover(&robot.legs[chain.leg].actuator, &legs[chain.leg].span);
+                let margin = chain::cover(bend, &robot.legs[chain.leg].actuator, &legs[chain.leg].span);
                 let all = Chain { leg: chain.leg, bend: None };
-                let [y, _] = all.coordinates::<3, 3>(&robot, &placement.map(Interval::point));
+                let [y, _] = chain::coordinates::<3, 3>(&all, &robot, &placement.map(Interval::point));
                 let end = if bend.back { PI } else { 0.0 };
                 if margin.abs() > 1e-9 {
                     assert_eq!(
@@ -171,7 +172,7 @@ mod tests {
                 let chart = Chart::Chain(chain.clone());
                 let (placement, _) = chart.at::<f64, 3, 3>(&robot, &y, |k| y[k].sin_cos());
                 let rows = placement.rotation().unwrap();
-                for image in all.coordinates::<3, 3>(&robot, &placement.map(Interval::point)) {
+                for image in chain::coordinates::<3, 3>(&all, &robot, &placement.map(Interval::point)) {
                     if image.iter().any(|x| x.width() > 1e-6) {
                         continue;
                     }

@@ -132,12 +132,13 @@ pub(super) fn pose<const D: usize, const N: usize>(placement: &Placement<Interva
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::chart::Coordinates;
     use crate::chart::Chart;
     use crate::modal::ModalRows;
     use aspecta_robot::WorkingMode;
     use aspecta_robot::num::Random;
 
-    const SPHERE: &str = include_str!("../../../tests/fixtures/sphere.toml");
+    const SPHERE: &str = include_str!("../../../aspecta/tests/fixtures/sphere.toml");
 
     /// Every point of the chart is a configuration: it closes leg j in the posture that sin ψ says, and there the robot is what it is at the pose.
     #[test]

@@ -4,7 +4,7 @@ use crate::placement::{Placement, out_of_frame};
 use arrayvec::ArrayVec;
 use aspecta_robot::legs::LockedEnd;
 use aspecta_robot::num::{Interval, Jet, Scalar};
-use aspecta_robot::{Actuator, BASE_FRAME, Leg, Platform};
+use aspecta_robot::{Leg, Platform};
 use nalgebra::{SMatrix, SVector};
 
 /// A leg whose actuator is locked at q. The end C of a point-to-point leg is then tied to a sphere (a circle

@@ -37,7 +37,7 @@ use super::{KinematicsError, Solution, WorkingMode, check_joints, for_platform};
 use crate::Kinematics;
 use arrayvec::ArrayVec;
 use aspecta_robot::num::Interval;
-use aspecta_robot::{Actuator, Platform, Robot};
+use aspecta_robot::{Platform, Robot};
 use locked::{Locked, LockedLegs};
 use serde::Serialize;
 use std::cmp::Ordering;

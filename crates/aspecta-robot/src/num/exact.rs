@@ -1,6 +1,7 @@
 //! Sums and products of doubles with their rounding errors, which are doubles as well.
 //!
-//! No fused multiplication is asked for: baseline x86-64 and WebAssembly have none, and the call that replaces it is slow.
+//! No fused multiplication is asked for: baseline x86-64 and WebAssembly have none, and the call that
+//! replaces it is slow.
 
 /// Returns (s, e), s = x + y rounded and x + y = s + e exactly (TwoSum, Knuth 1969), barring overflow.
 #[inline(always)]
@@ -17,8 +18,8 @@ pub(super) fn fast_two_sum(x: f64, y: f64) -> (f64, f64) {
     (s, y - (s - x))
 }
 
-/// Returns (p, e), p = x y rounded and x y = p + e exactly (TwoProduct, Dekker 1971), for factors up to 2⁹⁹⁵ and products from
-/// 2⁻⁹⁶⁰ up to 2¹⁰²⁰ or exactly zero. Below, both are off by a few times 2⁻¹⁰⁷⁴.
+/// Returns (p, e), p = x y rounded and x y = p + e exactly (TwoProduct, Dekker 1971), for factors up to 2⁹⁹⁵
+/// and products from 2⁻⁹⁶⁰ up to 2¹⁰²⁰ or exactly zero. Below, both are off by a few times 2⁻¹⁰⁷⁴.
 #[inline(always)]
 pub(super) fn two_product(x: f64, y: f64) -> (f64, f64) {
     let ((a, b), (c, d)) = (halves(x), halves(y));

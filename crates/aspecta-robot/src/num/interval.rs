@@ -118,7 +118,8 @@ impl Interval {
         i8::from(self.is_positive()) - i8::from(self.is_negative())
     }
 
-    /// Encloses sines and cosines from one angle to another: between extrema, which lie at multiples of π/2, both are monotone.
+    /// Encloses sines and cosines from one angle to another: between extrema, which lie at multiples of π/2,
+    /// both are monotone.
     #[inline(always)]
     pub(super) fn waves(from: Turned, to: Turned) -> (Self, Self) {
         // Whether (4n + k) π/2 lies there for an integer n.

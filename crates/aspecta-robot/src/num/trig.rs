@@ -1,28 +1,34 @@
 //! sin, cos and the angle of a vector, to within the neighbouring doubles.
 //!
-//! **Theorem.** The exact sin x, cos x (|x| < 10⁹) and atan2(y, x) lie between the two neighbours of the double that is
-//! returned here. So what [`Interval`](super::Interval) makes of it, x ∓ (|x|φ + η), encloses them.
+//! **Theorem.** The exact sin x, cos x (|x| < 10⁹) and atan2(y, x) lie between the two neighbours of the
+//! double that is returned here. So what [`Interval`](super::Interval) makes of it, x ∓ (|x|φ + η), encloses
+//! them.
 //!
-//! *Lemma.* Let h be v′ rounded to nearest and |v − v′| ≤ ½u|v|(1 − 4u), u = 2⁻⁵³. Then v lies between the neighbours of h: these
-//! are at least u|h| away, v′ is within half that distance of h, and v within the other half of v′. The bounds below are ¼u or less.
+//! *Lemma.* Let h be v′ rounded to nearest and |v − v′| ≤ ½u|v|(1 − 4u), u = 2⁻⁵³. Then v lies between the
+//! neighbours of h: these are at least u|h| away, v′ is within half that distance of h, and v within the
+//! other half of v′. The bounds below are ¼u or less.
 //!
-//! Everything is additions, multiplications, divisions of doubles, each correctly rounded as IEEE 754 has it. A pair (h, l) stands for
-//! h + l. What [`super::exact`] does is exact. Errors are given in multiples of u.
+//! Everything is additions, multiplications, divisions of doubles, each correctly rounded as IEEE 754 has it.
+//! A pair (h, l) stands for h + l. What [`super::exact`] does is exact. Errors are given in multiples of u.
 //!
-//! *Reduction.* k is x·2/π to the nearest integer, |k| < 2^29.3, but for an error of 2⁻²²: |x − kπ/2| < 0.7855. Let k ≠ 0, x > 0.
-//! - x − k Q₀ is exact (Sterbenz): the two are within a factor two of each other. For k = 1 that needs x ≥ Q₀/2, and x·2/π was not below
-//!   ½, so x ≥ (1 − 4u)π/4, while Q₀ < (1 − 2⁻²⁵)π/2.
+//! *Reduction.* k is x·2/π to the nearest integer, |k| < 2^29.3, but for an error of 2⁻²²: |x − kπ/2| <
+//! 0.7855. Let k ≠ 0, x > 0.
+//! - x − k Q₀ is exact (Sterbenz): the two are within a factor two of each other. For k = 1 that needs x ≥
+//!   Q₀/2, and x·2/π was not below ½, so x ≥ (1 − 4u)π/4, while Q₀ < (1 − 2⁻²⁵)π/2.
 //! - Less k Q₁ it is exact: a multiple of 2⁻⁵³ (x is one, from ½ on) below 1.
-//! - k Q₂ = p + e exactly. e + k Q₃ is below 2⁻⁷⁰, so its roundings and the rest of π/2 are below 2⁻¹²¹; the sum with the rounding error of
-//!   the difference adds u²|r|. No double is closer to a multiple of π/2 than 2⁻⁶¹ (Kahan 1983; Muller, *Elementary Functions*, 2016,
-//!   table 11.1; here, from 29 π/2, 2^−60.5). So r + ρ is the angle to a relative 2⁻⁵⁹, which changes sine and cosine by as much at most,
-//!   and r has its sign: 0.016.
+//! - k Q₂ = p + e exactly. e + k Q₃ is below 2⁻⁷⁰, so its roundings and the rest of π/2 are below 2⁻¹²¹; the
+//!   sum with the rounding error of the difference adds u²|r|. No double is closer to a multiple of π/2 than
+//!   2⁻⁶¹ (Kahan 1983; Muller, *Elementary Functions*, 2016, table 11.1; here, from 29 π/2, 2^−60.5). So r +
+//!   ρ is the angle to a relative 2⁻⁵⁹, which changes sine and cosine by as much at most, and r has its sign:
+//!   0.016.
 //!
-//! *Sine* of r + ρ, relative to |r|; z + δ = r² exactly, z ≤ 0.617; m + μ = (z + δ)/6. sin r = r − r(m + μ) + r z² S(z).
+//! *Sine* of r + ρ, relative to |r|; z + δ = r² exactly, z ≤ 0.617; m + μ = (z + δ)/6. sin r = r − r(m + μ) +
+//! r z² S(z).
 //! - The alternating series ends with z⁸/17!; what is left out is below z⁹/19!: 0.001.
-//! - S ≤ 1/120 errs by a relative 2.1 (its first coefficient and the last sum; the rest is small), z² and the product by one each, and
-//!   δ, left out, makes 2: 6.1 · z²/120 ≤ 0.020.
-//! - Five roundings of numbers below z²/120 |r| follow: 0.016. r m = p + π exactly, and r − p is split exactly.
+//! - S ≤ 1/120 errs by a relative 2.1 (its first coefficient and the last sum; the rest is small), z² and the
+//!   product by one each, and δ, left out, makes 2: 6.1 · z²/120 ≤ 0.020.
+//! - Five roundings of numbers below z²/120 |r| follow: 0.016. r m = p + π exactly, and r − p is split
+//!   exactly.
 //! - sin(r + ρ) = sin r + ρ cos r to ρ², with 1 − z/2 for cos r, which differ by z²/24: 0.016.
 //!
 //! Together 0.053, and sin r > 0.9 |r|: 0.06, with the reduction's 0.016 less than 0.08.
@@ -30,20 +36,23 @@
 //! *Cosine*, absolute. cos r = 1 − (z + δ)/2 + z² C(z); 1 − z/2 is split exactly.
 //! - The alternating series ends with z⁹/18!; what is left out is below z¹⁰/20!: 0.001.
 //! - C ≤ 1/24 errs as S does: 6.1 · z²/24 ≤ 0.097.
-//! - Three roundings of numbers below z²/24: 0.048. − ρ sin r, with r − p for sin r, which differ by z²/120 |r|: 0.003.
+//! - Three roundings of numbers below z²/24: 0.048. − ρ sin r, with r − p for sin r, which differ by z²/120
+//!   |r|: 0.003.
 //!
 //! Together 0.149, and cos r > 0.707: 0.211, with the reduction's 0.016 less than 0.23.
 //!
-//! *Angle* θ of a/b, 0 < a < b, relative. With c the nearest quarter, w = (a − cb)/(b + ca) is a tangent |w| ≤ ⅛, and θ = atan c + atan w.
-//! Where a/b < 2⁻²⁷ it is a/b itself, but for t²/3 ≤ 0.17.
-//! - w + ω is the quotient of sums without error, to u². atan w = w − w³ P(w²) ends with w¹⁹/19; left out is below w²¹/21: 0.001.
+//! *Angle* θ of a/b, 0 < a < b, relative. With c the nearest quarter, w = (a − cb)/(b + ca) is a tangent |w|
+//! ≤ ⅛, and θ = atan c + atan w. Where a/b < 2⁻²⁷ it is a/b itself, but for t²/3 ≤ 0.17.
+//! - w + ω is the quotient of sums without error, to u². atan w = w − w³ P(w²) ends with w¹⁹/19; left out is
+//!   below w²¹/21: 0.001.
 //! - P ≤ ⅓ errs by 2.1, w², w w² and the product by one each, and ω, left out, makes 3: 8.1 · w²/3 ≤ 0.043.
 //! - Three roundings of numbers below w³/3: 0.016.
 //!
-//! Together 0.06, relative to |w| ≤ 1.01 θ. Measured from 0, π/2 or π the angle is θ or more, and π/2 and π are pairs: no more is lost.
+//! Together 0.06, relative to |w| ≤ 1.01 θ. Measured from 0, π/2 or π the angle is θ or more, and π/2 and π
+//! are pairs: no more is lost.
 //!
-//! *Underflow* adds 2⁻¹⁰⁷⁵ to what an operation errs by. Where r² underflows to 0, so do all corrections, and sin r is r; where it does not,
-//! |r| > 2⁻⁵³⁸, of which u² is more. In the angle, a and b are scaled.
+//! *Underflow* adds 2⁻¹⁰⁷⁵ to what an operation errs by. Where r² underflows to 0, so do all corrections, and
+//! sin r is r; where it does not, |r| > 2⁻⁵³⁸, of which u² is more. In the angle, a and b are scaled.
 
 use super::exact::{fast_two_sum, two_product, two_sum};
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_4, PI};
@@ -51,7 +60,8 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_4, PI};
 /// [`sin_cos`] takes angles below this.
 pub(super) const MOST_ANGLE: f64 = 1e9;
 
-/// π/2 = Q₀ + Q₁ + Q₂ + Q₃ to 2⁻¹⁵⁹. Q₀ and Q₁ have no bits below 2⁻²² and 2⁻⁴⁵: their products with integers below 2³⁰ are exact.
+/// π/2 = Q₀ + Q₁ + Q₂ + Q₃ to 2⁻¹⁵⁹. Q₀ and Q₁ have no bits below 2⁻²² and 2⁻⁴⁵: their products with integers
+/// below 2³⁰ are exact.
 const QUARTER: [f64; 4] =
     [1.570_796_251_296_997, 7.549_789_415_861_596e-8, 5.390_302_858_158_119e-15, 8.478_427_660_368_9e-32];
 
@@ -150,8 +160,8 @@ fn sin_cos_near_zero(r: f64, rho: f64) -> (f64, f64) {
     (s + (ds + rho * c), c + (dc - rho * s))
 }
 
-/// Returns the angle of the vector (x, y), as C's atan2 has it: in [−π, π], of the sign of y also where y is a zero; between the
-/// neighbours of what is returned lies the exact one.
+/// Returns the angle of the vector (x, y), as C's atan2 has it: in [−π, π], of the sign of y also where y is
+/// a zero; between the neighbours of what is returned lies the exact one.
 pub(super) fn atan2(y: f64, x: f64) -> f64 {
     let steep = y.abs() > x.abs();
     let (angle, rest) = if steep { first_octant(x.abs(), y.abs()) } else { first_octant(y.abs(), x.abs()) };

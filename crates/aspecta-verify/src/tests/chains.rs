@@ -7,16 +7,15 @@ use aspecta_robot::chart::{Bend, Chain};
 fn of_mode(mode: &str, text: &str) -> Certificate {
     let robot = Robot::from_toml(text, "a fixture").unwrap();
     let options = Options { modes: vec![mode.parse().unwrap()], certificate: true, ..Options::default() };
-    let control = Control { cancelled: &AtomicBool::new(false), progress: &|_| {} };
-    analyze(&robot, &options, &control).unwrap().certificate.unwrap()
+    written(&robot, &options)
 }
 
 /// All configurations in the joint angles of the first leg.
 static SPHERE: LazyLock<Certificate> =
-    LazyLock::new(|| of_mode("---", include_str!("../../../tests/fixtures/limited_sphere.toml")));
+    LazyLock::new(|| of_mode("---", include_str!("../../../aspecta/tests/fixtures/limited_sphere.toml")));
 /// Those in which the third leg is nearly folded in its own joint angles.
 static BENT: LazyLock<Certificate> =
-    LazyLock::new(|| of_mode("-++", include_str!("../../../tests/fixtures/folding_sphere.toml")));
+    LazyLock::new(|| of_mode("-++", include_str!("../../../aspecta/tests/fixtures/folding_sphere.toml")));
 
 #[test]
 fn leaves_of_folds_are_checked_too() {
@@ -99,15 +98,15 @@ fn bends_are_joined_with_the_base() {
 #[test]
 fn bends_are_disjoint() {
     let mut robot =
-        Robot::from_toml(include_str!("../../../tests/fixtures/folding_sphere.toml"), "").unwrap();
+        Robot::from_toml(include_str!("../../../aspecta/tests/fixtures/folding_sphere.toml"), "").unwrap();
     for (leg, joint) in robot.legs.iter_mut().zip([[0.6, -0.8, 0.0], [0.0, 0.28, -0.96], [-0.96, 0.0, 0.28]])
     {
         let (cos, sin) = (Interval::point(0.0), Interval::point(1.0));
-        leg.actuator = crate::robot::Spherical { proximal: (cos, sin), distal_cos: cos }.into();
+        leg.actuator = aspecta_robot::Spherical { proximal: (cos, sin), distal_cos: cos }.into();
         leg.attachment = joint.map(Interval::point);
     }
     let window = robot.slice(&[]).unwrap();
-    let found = aspecta_robot::chart::charts(&robot, &window);
+    let found = aspecta_kinematics::chart::charts(&robot, &window);
     assert_eq!(found.len(), 5);
     let scale = &SPHERE.scale;
     let disjoint = |chart: &Chart, other: &Chart| {

@@ -2,6 +2,7 @@
 
 use crate::random::Random;
 use crate::{clearance_holds, minima, mode, options, robot, robots, samples};
+use aspecta::Kinematics;
 use aspecta::kinematics::modal::Constraint;
 use aspecta::motion::{Asked, Joined, PathOptions, check_joints, check_path, check_poses};
 

@@ -6,6 +6,7 @@ mod poses;
 #[allow(dead_code)]
 mod random;
 
+use aspecta::Kinematics;
 use aspecta::kinematics::WorkingMode;
 use aspecta::motion::{Joined, Least, PathCheck, PathOptions};
 use aspecta::robot::{Robot, catalogue};

@@ -2,6 +2,7 @@
 
 use crate::random::Random;
 use crate::{closed_path, robot, start};
+use aspecta::Kinematics;
 use aspecta::motion::follow::{InverseFollower, Refusal, StartError};
 use std::f64::consts::TAU;
 

@@ -7,6 +7,7 @@ mod paths;
 mod random;
 mod refusals;
 
+use aspecta::Kinematics;
 use aspecta::kinematics::WorkingMode;
 use aspecta::motion::follow::{Follower, InverseFollower};
 use aspecta::robot::{Platform, Robot, catalogue};

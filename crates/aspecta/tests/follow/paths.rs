@@ -2,6 +2,7 @@
 
 use crate::random::{self, Random, Spread};
 use crate::{apart, closed_path, follower, joints_in_one_aspect, robot, start};
+use aspecta::Kinematics;
 use aspecta::motion::follow::Follower;
 use aspecta::robot::{Platform, Robot};
 use proptest::prelude::*;

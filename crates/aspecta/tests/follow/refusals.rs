@@ -2,6 +2,7 @@
 
 use crate::random::{self, Random, Spread};
 use crate::{apart, follower, robot, start};
+use aspecta::Kinematics;
 use aspecta::motion::follow::{BadInput, Follower, Refusal, StartError};
 use aspecta::robot::{Platform, Robot};
 use proptest::prelude::*;

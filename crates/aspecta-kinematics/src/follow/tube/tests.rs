@@ -1,6 +1,7 @@
 //! Faults planted in what the certificate is given: none may be certified.
 
 use super::*;
+use crate::Kinematics;
 use aspecta_robot::catalogue;
 
 type Planar<'a> = Model<'a, 2, 3>;

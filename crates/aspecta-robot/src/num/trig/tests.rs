@@ -1,6 +1,6 @@
-//! Against core-math, whose functions are correctly rounded: the exact value lies within half an ulp of theirs. The theorem says
-//! that it is rounded to another double than theirs at most one case in two, and then to its neighbour, and that the enclosure made of
-//! ours holds the exact value.
+//! Against core-math, whose functions are correctly rounded: the exact value lies within half an ulp of
+//! theirs. The theorem says that it is rounded to another double than theirs at most one case in two, and
+//! then to its neighbour, and that the enclosure made of ours holds the exact value.
 
 use super::*;
 use crate::num::{Interval, Random, Scalar};
@@ -100,7 +100,7 @@ fn the_reduction_holds_where_it_is_hardest() {
     let (mut sin, mut cos) = (Agreement::up_to(1.0), Agreement::up_to(1.0));
     let nearest = [
         45.553_093_477_052_0,
-        1.570_796_326_794_896_6,
+        std::f64::consts::FRAC_PI_2,
         4.712_388_980_384_69,
         46_067.145_922_642_23,
         321_308.748_563_287_7,
