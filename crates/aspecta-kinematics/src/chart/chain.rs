@@ -132,8 +132,8 @@ pub(super) fn pose<const D: usize, const N: usize>(placement: &Placement<Interva
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::chart::Coordinates;
     use crate::chart::Chart;
+    use crate::chart::Coordinates;
     use crate::modal::ModalRows;
     use aspecta_robot::WorkingMode;
     use aspecta_robot::num::Random;

@@ -169,8 +169,8 @@ impl<'a> Growth<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use aspecta_kinematics::Kinematics;
     use crate::motion::explore::territory::roaming_window;
+    use aspecta_kinematics::Kinematics;
     use aspecta_kinematics::demand::Demand;
     use aspecta_robot::catalogue;
     use aspecta_robot::num::padded;
