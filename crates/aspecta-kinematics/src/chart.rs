@@ -24,17 +24,6 @@ pub use aspecta_robot::chart::{Bend, Chain, Chart, Fold};
 use aspecta_robot::num::{Interval, Scalar, each};
 use aspecta_robot::{Robot, Window};
 
-/// What a folded leg knows of itself.
-#[derive(Clone, Copy, Debug)]
-pub struct Folded<T> {
-    /// cos q.
-    pub cos: T,
-    /// sin q.
-    pub sin: T,
-    /// B_jj = −2LM p: the posture s has s B_jj > 0.
-    pub b: T,
-}
-
 /// A chart put to use: where a point of it puts the robot.
 pub trait Coordinates {
     /// The placement of the platform and the state of the legs at the point `y` of the chart; `turn(k)` gives (sin, cos) of the

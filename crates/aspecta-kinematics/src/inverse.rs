@@ -1,6 +1,6 @@
 //! The inverse geometric model: all joint vectors of a pose, one per working mode (5).
 
-use super::limits::{LegAt, margin};
+use super::constraints::within_limits;
 use super::placement::Placement;
 use super::singularity::serial_legs;
 use super::{KinematicsError, Solution, WorkingMode, for_platform};
@@ -13,8 +13,6 @@ use aspecta_robot::num::Interval;
 pub struct LegSolutions {
     /// q for s = + and s = −; `None` where the posture does not exist (out of reach, or a strut's s = +).
     pub q: [Option<f64>; 2],
-    /// Whether that posture respects the leg's joint limits.
-    pub within_limits: [bool; 2],
     /// H / H_max, in [0, 1]: the square of the sine of the elbow angle; 0 at a serial singularity, below
     /// 0 out of reach. 1 for struts.
     pub reach: f64,
@@ -31,10 +29,8 @@ fn legs_at<const D: usize, const N: usize>(robot: &Robot, pose: &[f64]) -> Vec<L
         let span = placement.span(leg, &placement.arm(leg));
         let closure = leg.actuator.eliminate(&span);
         let proof = leg.actuator.eliminate(&exact.span(leg, &exact.arm(leg)));
-        let at = LegAt { leg, span, closure, crank: None };
         let mut solutions = LegSolutions {
             q: [None; 2],
-            within_limits: [false; 2],
             reach: leg.actuator.greatest_reach().map_or(1.0, |most| closure.reach / most.mid()),
             certified: proof.reach.is_positive(),
         };
@@ -48,8 +44,6 @@ fn legs_at<const D: usize, const N: usize>(robot: &Robot, pose: &[f64]) -> Vec<L
             }
             let sh = s * closure.reach.max(0.0).sqrt();
             solutions.q[k] = Some(leg.actuator.drive(&span, &closure, sh).value());
-            solutions.within_limits[k] =
-                leg.limits.iter().all(|limit| margin(limit, &at, sh, &placement) > 0.0);
         }
         solutions
     };
@@ -62,14 +56,17 @@ pub(crate) fn leg_solutions(robot: &Robot, pose: &[f64]) -> Result<Vec<LegSoluti
     Ok(for_platform!(robot.platform, legs_at(robot, pose)))
 }
 
-/// [`Kinematics::inverse`](crate::Kinematics::inverse).
-pub(crate) fn inverse(robot: &Robot, pose: &[f64]) -> Result<Vec<Solution>, KinematicsError> {
-    let legs = robot.leg_solutions(pose)?;
+/// Every mode's solution at `pose`.
+fn solutions_at<const D: usize, const N: usize>(
+    robot: &Robot,
+    pose: &[f64],
+) -> Result<Vec<Solution>, KinematicsError> {
+    let legs = legs_at::<D, N>(robot, pose);
+    let is_within = within_limits::<D, N>(robot, pose);
     let certified = legs.iter().all(|l| l.certified);
     let mut solutions = Vec::new();
     for mode in robot.working_modes() {
         let Some(q) = joint_vector(&legs, mode) else { continue };
-        let within = mode.signs().zip(&legs).all(|(s, l)| l.within_limits[usize::from(s < 0)]);
         let jacobians = robot.jacobians(pose, &q)?;
         solutions.push(Solution {
             pose: pose.to_vec(),
@@ -79,10 +76,16 @@ pub(crate) fn inverse(robot: &Robot, pose: &[f64]) -> Result<Vec<Solution>, Kine
             residual: jacobians.residual,
             q,
             certified,
-            within_limits: within,
+            within_limits: is_within(mode),
         });
     }
     Ok(solutions)
+}
+
+/// [`Kinematics::inverse`](crate::Kinematics::inverse).
+pub(crate) fn inverse(robot: &Robot, pose: &[f64]) -> Result<Vec<Solution>, KinematicsError> {
+    check_pose(robot, pose)?;
+    for_platform!(robot.platform, solutions_at(robot, pose))
 }
 
 /// [`Kinematics::inverse_in`](crate::Kinematics::inverse_in).

@@ -6,13 +6,12 @@
 mod architecture;
 pub mod chart;
 pub mod condition;
+pub mod constraints;
 pub mod cusps;
-pub mod demand;
 pub mod direct;
 pub mod follow;
 mod inverse;
 mod jacobian;
-pub mod limits;
 mod minors;
 pub mod modal;
 mod model;
@@ -33,7 +32,7 @@ pub use singularity::{SINGULAR, Singularity, State, make_homogeneous};
 #[doc(hidden)]
 pub use aspecta_robot::Platform;
 use aspecta_robot::num::written;
-pub use aspecta_robot::{NotAMode, WorkingMode};
+pub use aspecta_robot::{LegSet, NotAMode, WorkingMode};
 use serde::Serialize;
 
 /// Runs a function generic over (D, N) — the dimension of space and the degrees of freedom — for the

@@ -5,9 +5,7 @@
 //! fixed_j + s_j swing_j, so that weighted det A is multi-affine in the signs.
 
 use super::WorkingMode;
-use super::chart::Folded;
 use super::condition::Conditioner;
-use super::limits::LegAt;
 use super::minors::Minors;
 use super::placement::{Placement, determinant, minor, out_of_frame, wrench};
 use aspecta_robot::legs::{Closure, Drive};
@@ -44,6 +42,17 @@ pub struct LegClosure<T, const D: usize> {
     pub fold: Option<Folded<T>>,
 }
 
+/// A leg's state in its own coordinates, of which its q is one.
+#[derive(Clone, Copy, Debug)]
+pub struct Folded<T> {
+    /// cos q.
+    pub cos: T,
+    /// sin q.
+    pub sin: T,
+    /// B_jj: the posture s has s B_jj > 0.
+    pub b: T,
+}
+
 impl<T: Scalar, const D: usize> LegClosure<T, D> {
     /// s h = s √H for the postures + and −; where the leg's own coordinates are used, its B both times.
     pub fn heights(&self) -> [T; 2] {
@@ -66,13 +75,20 @@ impl<T: Scalar, const D: usize> LegClosure<T, D> {
         self.fold.is_none() && leg.actuator.is_angle()
     }
 
-    /// The leg as its limits see it.
-    pub fn limited<'a>(&self, leg: &'a Leg) -> LegAt<'a, T, D> {
-        LegAt {
-            leg,
-            span: self.span,
-            closure: self.closure,
-            crank: self.fold.as_ref().map(|f| (f.cos, f.sin)),
+    /// The same in another scalar.
+    pub fn map<U: Scalar>(&self, to: impl Fn(T) -> U) -> LegClosure<U, D> {
+        let vector = |v: &[T; D]| each!(|k| to(v[k]));
+        let Closure { reach, weight, fixed, swing } = &self.closure;
+        LegClosure {
+            arm: vector(&self.arm),
+            span: vector(&self.span),
+            closure: Closure {
+                reach: to(*reach),
+                weight: to(*weight),
+                fixed: vector(fixed),
+                swing: vector(swing),
+            },
+            fold: self.fold.map(|Folded { cos, sin, b }| Folded { cos: to(cos), sin: to(sin), b: to(b) }),
         }
     }
 }
@@ -182,15 +198,4 @@ impl<const N: usize, const M: usize> ModalRows<Slope<Pack, M>, N> {
         let by = Conditioner::new(&rows);
         determinant(&rows.map(|row| by.row(&row))).tightened().range * by.det
     }
-}
-
-/// One of the functions that bound an aspect.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-pub enum Constraint {
-    /// H_j of leg j (from 0): serial singularity.
-    Reach(usize),
-    /// Limit k of leg j (from 0).
-    Limit(usize, usize),
-    /// det A: parallel singularity.
-    Det,
 }

@@ -10,6 +10,7 @@
 pub mod catalogue;
 pub mod chart;
 mod classes;
+pub mod constraint;
 mod file;
 mod frame;
 mod leg;
@@ -32,7 +33,7 @@ pub use platform::{Coordinate, Platform};
 pub use slice::SliceError;
 pub use sound::{Takes, Unsound, holds, sane, takes, usable, wanted};
 pub use window::{Unbounded, Window};
-pub use working_mode::{NotAMode, WorkingMode};
+pub use working_mode::{LegSet, NotAMode, WorkingMode};
 
 use crate::legs::Kind;
 use serde::{Deserialize, Serialize};

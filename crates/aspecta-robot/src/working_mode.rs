@@ -52,6 +52,39 @@ impl WorkingMode {
     }
 }
 
+/// A set of legs, of those whose postures something depends on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LegSet(u8);
+
+impl LegSet {
+    /// No leg.
+    pub const NONE: Self = Self(0);
+    /// Every leg.
+    pub const ALL: Self = Self(u8::MAX);
+
+    /// Leg `j` (from 0) alone.
+    pub fn of(j: usize) -> Self {
+        Self(1 << j)
+    }
+
+    /// Whether leg `j` (from 0) belongs to it.
+    pub fn holds(self, j: usize) -> bool {
+        self.0 >> j & 1 == 1
+    }
+
+    /// Whether two modes have these legs in the same postures.
+    pub fn are_alike(self, a: WorkingMode, b: WorkingMode) -> bool {
+        (a.negative ^ b.negative) & self.0 == 0
+    }
+
+    /// Every choice of postures of these legs, as modes of `legs` legs whose others are positive.
+    pub fn choices(self, legs: usize) -> impl Iterator<Item = WorkingMode> {
+        let among = self.0 & ((1u16 << legs) - 1) as u8;
+        let all = (0..=among).filter(move |negative| negative & !among == 0);
+        all.map(move |negative| WorkingMode { negative, legs: legs as u8 })
+    }
+}
+
 impl Robot {
     /// All working modes in the order of Table 1 (`++`, `+-`, `--`, `-+`): each differs from the one before in one leg. A leg with one inverse solution (a
     /// strut, B = −2q < 0) contributes one sign.

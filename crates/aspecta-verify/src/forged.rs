@@ -1,9 +1,9 @@
 //! Files that a forger could write: each was once believed, or could have been.
 
 use super::*;
-use crate::certificate::Scale;
 use crate::certificate::{Claim, Entry, Leaf, Sheet as SheetOfFile, Tree};
 use aspecta_robot::chart::Fold;
+use aspecta_robot::constraint::Scale;
 use aspecta_robot::{Actuator, Leg, Platform, Revolute, Robot, WorkingMode, catalogue};
 
 fn sphere() -> Robot {
@@ -12,13 +12,12 @@ fn sphere() -> Robot {
 
 /// A certificate of one leaf.
 fn one_leaf(robot: &Robot, fix: &[(usize, f64)], mode: WorkingMode, leaf: Leaf, claim: Claim) -> Certificate {
-    let limits = robot.legs.iter().map(|leg| vec![1.0; leg.limits.len()]).collect();
     Certificate {
         certificate_version: crate::certificate::FORMAT_VERSION,
         robot: robot.clone(),
         window: robot.slice(fix).unwrap(),
         modes: vec![mode],
-        scale: Scale { det: 1.0, reach: vec![1.0; robot.dof()], limits },
+        scale: Scale::ones(robot),
         claims: vec![claim; 2],
         sheets: vec![SheetOfFile { chart: Chart::Pose, tree: Tree(vec![Entry::Leaf(leaf)]) }],
         joins: Vec::new(),

@@ -6,6 +6,7 @@ use super::place::{ANY, Along, Function, Heights, OWN, Place, Posture, ZERO};
 use arrayvec::ArrayVec;
 use aspecta_robot::AXES;
 use aspecta_robot::WorkingMode;
+use aspecta_robot::constraint::Constraint;
 use aspecta_robot::num::{Interval, Scalar, dot};
 use std::cell::OnceCell;
 use std::rc::Rc;
@@ -76,11 +77,14 @@ impl<'p, 'a, const D: usize> InMode<'p, 'a, D> {
     /// Whether the mode exists.
     pub(super) fn existence(&self) -> Existence {
         let mut known = Existence::Everywhere;
-        for (leg, posture) in self.place.setting.robot.legs.iter().zip(&self.legs) {
-            // A strut has one posture, and det A = 0 where its length is 0.
-            let two = leg.actuator.postures() == 2;
-            let in_posture = two.then_some([posture.reach, posture.slope]);
-            for value in in_posture.iter().flatten().chain(&posture.limits) {
+        for constraint in Constraint::of(self.place.setting.robot) {
+            let values: ArrayVec<Interval, 2> = match constraint {
+                Constraint::Reach(j) => [self.legs[j].reach, self.legs[j].slope].into(),
+                Constraint::Limit(j, k) => [self.legs[j].limits[k]].into_iter().collect(),
+                // Its sign is not the mode's.
+                Constraint::Det => continue,
+            };
+            for value in values {
                 if value.hi <= 0.0 {
                     return Existence::Nowhere;
                 }

@@ -2,11 +2,11 @@
 
 use super::body::{Body, LegState, Links, MOST, joint, slope_per_root};
 use super::in_mode::InMode;
-use crate::certificate::Scale;
 use arrayvec::ArrayVec;
 use aspecta_robot::AXES;
 use aspecta_robot::WorkingMode;
 use aspecta_robot::chart::{Bend, Chain, Chart, Fold};
+use aspecta_robot::constraint::Scale;
 use aspecta_robot::num::{Interval, Jet, Scalar};
 use aspecta_robot::{Robot, Window};
 use std::cell::OnceCell;

@@ -6,6 +6,7 @@ use super::direction::climbable;
 use super::in_mode::{Existence, InMode};
 use super::place::{ANY, Heights, ONE, OWN, Posture, ZERO, halves};
 use aspecta_robot::AXES;
+use aspecta_robot::constraint::Constraint;
 use aspecta_robot::num::{Interval, Scalar, cross};
 
 /// A vector along the axes.
@@ -15,7 +16,7 @@ type Direction = [Interval; AXES];
 type Vector = [Interval; AXES + MOST];
 
 /// One of the functions whose least is P.
-struct Constraint {
+struct Bound {
     value: Interval,
     gradient: Vector,
     /// The leg whose h_j it is.
@@ -31,7 +32,7 @@ struct Velocity {
 
 impl Velocity {
     /// The derivative of a constraint along it.
-    fn growth(&self, constraint: &Constraint) -> Interval {
+    fn growth(&self, constraint: &Bound) -> Interval {
         match constraint.height_of {
             Some(j) if self.level >> j & 1 == 1 => ZERO,
             _ => dot(&constraint.gradient, &self.vector),
@@ -90,10 +91,10 @@ impl<const D: usize> InMode<'_, '_, D> {
         if least <= 0.0 {
             return true;
         }
-        let active: Vec<&Constraint> = constraints.iter().filter(|c| c.value.lo <= least).collect();
+        let active: Vec<&Bound> = constraints.iter().filter(|c| c.value.lo <= least).collect();
         let climbs = |held: Held, loose: &[usize]| {
             self.velocities(loose, held).is_some_and(|velocities| {
-                let growth = |c: &&Constraint| velocities.iter().map(|v| v.growth(c)).collect();
+                let growth = |c: &&Bound| velocities.iter().map(|v| v.growth(c)).collect();
                 climbable(&active.iter().map(growth).collect::<Vec<_>>())
             })
         };
@@ -113,28 +114,34 @@ impl<const D: usize> InMode<'_, '_, D> {
     }
 
     /// The functions whose least is P, scaled, and gradients of increasing functions of them.
-    fn constraints(&self, sign: f64) -> Vec<Constraint> {
+    fn constraints(&self, sign: f64) -> Vec<Bound> {
         let setting = self.place.setting;
         let scale = setting.scale;
         let exact = Interval::point;
-        let det = self.determinant();
-        let mut gradient = joined(&det.along, &det.by_joint);
-        gradient.iter_mut().for_each(|g| *g = *g * exact(sign));
-        let mut all =
-            vec![Constraint { value: det.range * exact(sign) / exact(scale.det), gradient, height_of: None }];
-        for (j, posture) in self.legs.iter().enumerate() {
-            if setting.robot.legs[j].actuator.postures() == 2 {
-                // √H = |B| (|B|/2) grows as s B does where that is positive.
-                let s = exact(f64::from(self.mode.sign(j)));
-                let gradient = of_leg(j, &posture.over.slope.gradient.map(|g| g * s));
-                let value = (posture.reach / exact(scale.reach[j])).sqrt();
-                all.push(Constraint { value, gradient, height_of: Some(j) });
+        let of = |constraint: Constraint| {
+            let size = exact(scale[constraint]);
+            match constraint {
+                Constraint::Det => {
+                    let det = self.determinant();
+                    let gradient = joined(&det.along, &det.by_joint).map(|g| g * exact(sign));
+                    Bound { value: det.range * exact(sign) / size, gradient, height_of: None }
+                }
+                Constraint::Reach(j) => {
+                    // √H = |B| (|B|/2) grows as s B does where that is positive.
+                    let (leg, s) = (&self.legs[j], exact(f64::from(self.mode.sign(j))));
+                    let gradient = of_leg(j, &leg.over.slope.gradient.map(|g| g * s));
+                    Bound { value: (leg.reach / size).sqrt(), gradient, height_of: Some(j) }
+                }
+                Constraint::Limit(j, k) => {
+                    let leg = &self.legs[j];
+                    let gradient = of_leg(j, &leg.over.limits[k].gradient);
+                    Bound { value: leg.limits[k] / size, gradient, height_of: None }
+                }
             }
-            for (k, limit) in posture.over.limits.iter().enumerate() {
-                let value = posture.limits[k] / exact(scale.limits[j][k]);
-                all.push(Constraint { value, gradient: of_leg(j, &limit.gradient), height_of: None });
-            }
-        }
+        };
+        let mut all: Vec<Bound> = Constraint::of(setting.robot).map(of).collect();
+        // det A, the last, comes first.
+        all.rotate_right(1);
         for (a, &k) in setting.axes.iter().enumerate() {
             let (lo, hi) = setting.window.ranges[k];
             let (y, cut) = (self.place.y[k], setting.window.cut[k]);
@@ -143,7 +150,7 @@ impl<const D: usize> InMode<'_, '_, D> {
                 if cut {
                     let mut gradient = [ZERO; AXES + MOST];
                     gradient[a] = exact(sign);
-                    all.push(Constraint { value: distance / width, gradient, height_of: None });
+                    all.push(Bound { value: distance / width, gradient, height_of: None });
                 }
             }
         }
@@ -256,6 +263,7 @@ mod tests {
     use super::*;
     use crate::place::{Place, Setting};
     use aspecta_robot::chart::Chart;
+    use aspecta_robot::constraint::Scale;
     use aspecta_robot::num::Random;
     use aspecta_robot::{Robot, catalogue};
 
@@ -271,7 +279,7 @@ mod tests {
     /// At random configurations of a robot, whichever legs count as loose; returns how many velocities held some h_j.
     fn look_at<const D: usize>(robot: &Robot) -> usize {
         let (window, modes) = (robot.slice(&[]).unwrap(), robot.working_modes());
-        let scale = crate::tests::scale(robot, &window, &modes);
+        let scale = Scale::ones(robot);
         let setting = Setting::new(robot, &Chart::Pose, window, &scale);
         let (mut random, mut level) = (Random::new(5), 0);
         for k in 0..400 {

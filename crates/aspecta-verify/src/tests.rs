@@ -4,12 +4,12 @@ mod chains;
 mod summits;
 
 use super::*;
-use crate::certificate::{Claim, Entry, Join, Leaf, Scale};
+use crate::certificate::{Claim, Entry, Join, Leaf};
 use aspecta::aspect::{Options, analyze};
 use aspecta::paving::Budget;
 use aspecta_robot::ClassSet;
 use aspecta_robot::num::Scalar;
-use aspecta_robot::{Leg as RobotLeg, Limit, Platform, Revolute, Robot, Window, WorkingMode, catalogue};
+use aspecta_robot::{Leg as RobotLeg, Limit, Platform, Revolute, Robot, catalogue};
 use proptest::prelude::*;
 use std::sync::LazyLock;
 use std::sync::atomic::AtomicBool;
@@ -18,12 +18,6 @@ use std::sync::atomic::AtomicBool;
 fn written(robot: &Robot, options: &Options) -> Certificate {
     let certificate = analyze(robot, options, &Control::unwatched()).unwrap().certificate.unwrap();
     Certificate::from_json(certificate.to_json().unwrap().as_bytes()).unwrap()
-}
-
-/// The scale that the library takes for a robot.
-pub(crate) fn scale(robot: &Robot, window: &Window, modes: &[WorkingMode]) -> Scale {
-    let scale = aspecta::aspect::scale(robot, window, modes);
-    serde_json::from_value(serde_json::to_value(scale).unwrap()).unwrap()
 }
 
 /// What an analysis proves of a robot, or of the slice `fix`: its leaves, joins and seams. Nothing is claimed.

@@ -4,7 +4,7 @@ use aspecta::Kinematics;
 use aspecta::aspect::{Analysis, AspectClass, DetSign, Options, Place, analyze};
 use aspecta::domain::boundary::{Boundary, BoundaryError, Face, Simplex};
 use aspecta::domain::characteristic::{Characteristic, CharacteristicError};
-use aspecta::kinematics::modal::Constraint;
+use aspecta::kinematics::constraints::Constraint;
 use aspecta::num::without_turns;
 use aspecta::paving::{Budget, Control};
 use aspecta::robot::{Robot, catalogue};

@@ -3,6 +3,7 @@
 use aspecta::Kinematics;
 use aspecta::aspect::{Analysis, Options, Place, analyze};
 use aspecta::domain::{DomainOptions, Map, MapError, MappedAspect, Nowhere, domains};
+use aspecta::kinematics::constraints::Constraint;
 use aspecta::paving::{Budget, Control};
 use aspecta::robot::catalogue;
 use flate2::Compression;
@@ -110,7 +111,7 @@ fn why_a_pose_is_nowhere() {
         (Some(analysis.classes[place_class(&analysis)].aspects[0].id), None)
     );
     assert_eq!(map.locate(&[0.0, 0.0, -1700.0], mode), Err(Nowhere::Window));
-    assert!(matches!(map.locate(&[0.0, 0.0, -760.0], mode), Err(Nowhere::Limit { limit: 1, .. })));
+    assert!(matches!(map.locate(&[0.0, 0.0, -760.0], mode), Err(Nowhere::Limit(Constraint::Limit(_, 0)))));
 }
 
 fn place_class(analysis: &Analysis) -> usize {

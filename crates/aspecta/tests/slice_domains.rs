@@ -4,7 +4,7 @@ use aspecta::Kinematics;
 use aspecta::aspect::{Analysis, DetSign, Options, analyze};
 use aspecta::domain::boundary::Face;
 use aspecta::domain::{DomainOptions, Domains, Mesh, domains, slice};
-use aspecta::kinematics::modal::Constraint;
+use aspecta::kinematics::constraints::Constraint;
 use aspecta::paving::{Budget, Control};
 use aspecta::robot::{Robot, catalogue};
 

@@ -1,7 +1,7 @@
 //! `--avoid`: how far a motion must stay away from singularities.
 
 use crate::failure::Failure;
-use aspecta::kinematics::demand::Margins;
+use aspecta::kinematics::constraints::Margins;
 use clap::Args;
 
 /// The margins asked for.

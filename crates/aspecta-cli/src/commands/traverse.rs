@@ -10,7 +10,7 @@ use crate::output::{Align, FORMAT_VERSION, Labels, Table, json};
 use crate::show::groups::AS_FAR;
 use crate::work::mapping::Source;
 use aspecta::domain::Map;
-use aspecta::kinematics::modal::Constraint;
+use aspecta::kinematics::constraints::{Constraint, Kind};
 use aspecta::motion::modes::ModeGraph;
 use aspecta::motion::traverse::{ClassHolds, Holds, PoseSet, Traversability, traversability};
 use aspecta::robot::Robot;
@@ -235,11 +235,11 @@ fn print(out: &mut dyn Write, robot: &Robot, found: &Traversability, degrees: bo
 fn what(robot: &Robot, constraint: Option<Constraint>) -> String {
     match constraint {
         None => "another aspect, or beyond the robot's window".into(),
-        Some(Constraint::Det) => "the other sign of det A".into(),
-        Some(Constraint::Reach(leg)) => format!("leg {} does not reach", leg + 1),
-        Some(Constraint::Limit(leg, limit)) => {
-            format!("{} limit of leg {}", robot.legs[leg].limits[limit].joint(), leg + 1)
-        }
+        Some(constraint) => match constraint.kind() {
+            Kind::Parallel => format!("the other sign of {constraint}"),
+            Kind::Serial(leg) => format!("leg {} does not reach", leg + 1),
+            Kind::Limit => constraint.named(robot),
+        },
     }
 }
 

@@ -64,9 +64,10 @@ impl<'a> Place<'a> {
 }
 
 fn why(robot: &Robot, nowhere: &Nowhere) -> String {
-    let Nowhere::Limit { leg, limit } = *nowhere else { return nowhere.to_string() };
-    let joint = robot.legs[leg - 1].limits[limit - 1].joint();
-    format!("beyond the {joint} limit of leg {leg}")
+    match nowhere {
+        Nowhere::Limit(constraint) => format!("beyond the {}", constraint.named(robot)),
+        _ => nowhere.to_string(),
+    }
 }
 
 #[derive(Serialize)]

@@ -74,7 +74,7 @@ fn a_joint_limit_is_named() {
     assert_eq!(document["obstacle"]["constraint"], wanted);
     let (_directory, path) = file(beyond);
     let text = aspecta("check-path 3-rpr --mode ---").arg(&path).output().unwrap().stdout;
-    assert!(String::from_utf8(text).unwrap().contains("leg 2 meets its actuator limit"));
+    assert!(String::from_utf8(text).unwrap().contains("beyond the actuator limit of leg 2"));
 }
 
 /// The way back in mode ++- is refused, and where it first fails is said.

@@ -15,7 +15,7 @@ fn certificate(low: usize) -> Certificate {
     let control = Control { cancelled: &AtomicBool::new(false), progress: &|_| {} };
     let budget = Budget { depth: Some(6), ..Budget::default() };
     let paving = Paving::new(&robot, &window, &modes, &budget, &control);
-    let scale = aspecta::aspect::scale(&robot, &window, &modes);
+    let scale = aspecta::aspect::typical(&robot, &window, &modes);
     aspecta::aspect::certify(&robot, &scale, &[paving], vec![], vec![], vec![Claim { low, high: None }; 8])
 }
 

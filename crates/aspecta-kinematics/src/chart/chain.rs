@@ -1,7 +1,6 @@
 //! The joint angles of a spherical leg as coordinates of all configurations, or of those near its fold.
 
-use super::Folded;
-use crate::modal::{LegClosure, closures};
+use crate::modal::{Folded, LegClosure, closures};
 use crate::placement::{Placement, into_frame, out_of_frame, roll_pitch_yaw};
 use aspecta_robot::chart::{Bend, Chain};
 use aspecta_robot::legs::{Closure, Spherical};

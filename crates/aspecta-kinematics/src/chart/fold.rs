@@ -1,7 +1,7 @@
 //! The coordinates of a nearly folded leg, and where a robot has such folds.
 
-use super::{Folded, largest_apart};
-use crate::modal::{LegClosure, closures};
+use super::largest_apart;
+use crate::modal::{Folded, LegClosure, closures};
 use crate::placement::{Placement, out_of_frame};
 use arrayvec::ArrayVec;
 use aspecta_robot::chart::Fold;

@@ -30,10 +30,9 @@ mod spheres;
 mod triangle;
 mod turning_body;
 
-use super::limits::{LegAt, margin};
-use super::placement::Placement;
+use super::constraints::within_limits;
 use super::singularity::serial_legs;
-use super::{KinematicsError, Solution, WorkingMode, check_joints, for_platform};
+use super::{KinematicsError, Solution, check_joints, for_platform};
 use crate::Kinematics;
 use arrayvec::ArrayVec;
 use aspecta_robot::num::Interval;
@@ -232,7 +231,7 @@ fn labelled<const D: usize, const N: usize>(
         let jacobians = super::jacobian::jacobians::<D, N>(robot, &pose, q);
         let mode = jacobians.mode();
         solutions.push(Solution {
-            within_limits: within_limits::<D>(robot, &pose, mode),
+            within_limits: within_limits::<D, N>(robot, &pose)(mode),
             pose: pose.to_vec(),
             q: q.to_vec(),
             mode,
@@ -243,20 +242,4 @@ fn labelled<const D: usize, const N: usize>(
         });
     }
     DirectSolutions { solutions, complete: poses.at_most == Some(proved + boxes.len()) }
-}
-
-/// Whether every joint is strictly within its limits at `pose` in `mode`.
-pub fn within_limits<const D: usize>(robot: &Robot, pose: &[f64], mode: WorkingMode) -> bool {
-    if robot.legs.iter().all(|leg| leg.limits.is_empty()) {
-        return true;
-    }
-    let placement = Placement::<f64, D>::at(robot.platform, pose);
-    robot.legs.iter().zip(mode.signs()).all(|(leg, sign)| {
-        let span = placement.span(leg, &placement.arm(leg));
-        let closure = leg.actuator.eliminate(&span);
-        let at = LegAt { leg, span, closure, crank: None };
-        leg.limits.iter().all(|limit| {
-            margin(limit, &at, f64::from(sign) * closure.reach.max(0.0).sqrt(), &placement) > 0.0
-        })
-    })
 }

@@ -3,8 +3,9 @@
 use super::refusal::{BadInput, Refusal, StartError};
 use super::tube::{Located, Model, plain};
 use super::{Padded, between, check_numbers, in_stretches, unpadded};
+use crate::constraints::within_limits;
 use crate::path::units;
-use crate::{KinematicsError, WorkingMode, direct, for_platform};
+use crate::{KinematicsError, WorkingMode, for_platform};
 use aspecta_robot::Robot;
 use aspecta_robot::num::padded;
 use nalgebra::SMatrix;
@@ -167,7 +168,7 @@ fn advance<const D: usize, const N: usize>(follower: &mut Follower, q: &[f64]) -
     if proved < 1.0 {
         return Err(model.refusal(&last, &start.q, &goal, proved));
     }
-    let within_limits = direct::within_limits::<D>(&follower.robot, &last.pose, mode);
+    let within_limits = within_limits::<D, N>(&follower.robot, &last.pose)(mode);
     let [length_error, angle_error] = model.errors(&last);
     follower.state = State::of(&last, mode);
     Ok(Step {

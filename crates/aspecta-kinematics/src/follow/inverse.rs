@@ -2,9 +2,10 @@
 
 use super::refusal::{Refusal, StartError};
 use super::{Padded, between, check_numbers, in_stretches, unpadded};
+use crate::constraints::within_limits;
 use crate::modal::{ModalRows, closures};
 use crate::placement::Placement;
-use crate::{Kinematics, WorkingMode, direct, for_platform};
+use crate::{Kinematics, WorkingMode, for_platform};
 use aspecta_robot::Robot;
 use aspecta_robot::legs::Drive;
 use aspecta_robot::num::{Interval, Scalar, each, padded, without_turns};
@@ -122,7 +123,7 @@ fn advance<const D: usize, const N: usize>(
         return Err(refusal::<D, N>(robot, &segment, open, proved));
     }
     let regular = regular || keeps_det_sign::<D, N>(robot, mode, &segment);
-    let within_limits = direct::within_limits::<D>(robot, &segment.goal, mode);
+    let within_limits = within_limits::<D, N>(robot, &segment.goal)(mode);
     (follower.pose, follower.q) = (padded(&segment.goal), padded(&q));
     Ok(JointStep { q: follower.q, dof: N, regular, within_limits, stretches })
 }

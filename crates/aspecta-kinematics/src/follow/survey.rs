@@ -4,11 +4,12 @@ use super::direct::{Follower, check_joints};
 use super::on_the_way::OnTheWay;
 use super::tube::{Model, Stretch};
 use super::{Refusal, unpadded};
-use crate::demand::unit_of_moments;
-use crate::limits::{LegAt, margin};
+use crate::constraints::{Configuration, Constraint, unit_of_moments};
+use crate::modal::{Folded, LegClosure};
 use crate::placement::{determinant, wrench};
 use crate::{WorkingMode, for_platform};
 use aspecta_robot::Platform;
+use aspecta_robot::legs::Closure;
 use aspecta_robot::num::{Ball, Interval, Scalar, Slope, dot, padded};
 
 /// Enclosures of what the robot meets on one certified stretch of joint vectors: they hold the values at every configuration of the solution
@@ -17,12 +18,12 @@ use aspecta_robot::num::{Ball, Interval, Scalar, Slope, dot, padded};
 pub struct Survey {
     /// det A.
     pub det_a: Interval,
-    /// det Â, as [`Margins`](crate::demand::Margins) defines it.
+    /// det Â, as [`Margins`](crate::constraints::Margins) defines it.
     pub parallel: Interval,
     /// B_jj / max |B_jj|, with its sign; −1 for struts.
     pub serial: Vec<Interval>,
-    /// What is > 0 strictly within limit k of leg j (both from 0): (j, k, [`margin`]).
-    pub limits: Vec<(usize, usize, Interval)>,
+    /// The limits and what is > 0 strictly within each.
+    pub limits: Vec<(Constraint, Interval)>,
     /// The working mode at the end. Proved if no enclosure of `serial` holds 0, else numerical.
     pub mode: WorkingMode,
 }
@@ -67,7 +68,10 @@ impl<const D: usize, const N: usize> Model<'_, D, N> {
         let mut rows = [[Over::zero(); N]; N];
         let mut unit = Over::constant(unit_of_moments(robot));
         let mut serial = Vec::with_capacity(N);
-        let mut limits = Vec::new();
+        let zero = [Over::zero(); D];
+        let open = Closure { reach: Over::zero(), weight: Over::zero(), fixed: zero, swing: zero };
+        let mut legs = [LegClosure { arm: zero, span: zero, closure: open, fold: None }; N];
+        let mut heights = [[Over::zero(); 2]; N];
         for (j, leg) in robot.legs.iter().enumerate().take(N) {
             let over = stretch.leg(leg, j, &placement);
             rows[j] = wrench(robot.platform, &over.gradient, &over.arm);
@@ -85,13 +89,15 @@ impl<const D: usize, const N: usize> Model<'_, D, N> {
                 None => Interval::point(-1.0),
             });
             let closure = leg.actuator.eliminate(&over.span);
-            let crank = over.turn.map(|(sin, cos)| (cos, sin));
-            let at = LegAt { leg, span: over.span, closure, crank };
-            let margins = leg.limits.iter().map(|limit| range(margin(limit, &at, sh, &placement)));
-            limits.extend(margins.enumerate().map(|(k, margin)| (j, k, margin)));
+            let fold = over.turn.map(|(sin, cos)| Folded { cos, sin, b: over.slope });
+            legs[j] = LegClosure { arm: over.arm, span: over.span, closure, fold };
+            heights[j] = [sh; 2];
         }
-        let det: Over = determinant(&rows);
+        // Whatever the postures are: each s h is the one that the stretch has.
         let mode = WorkingMode::from_signs([]);
+        let at = Configuration { robot, placement: &placement, legs: &legs, heights: &heights, mode };
+        let limits = at.limits().map(|(constraint, margin)| (constraint, range(margin))).collect();
+        let det: Over = determinant(&rows);
         Survey { det_a: range(det), parallel: range(det / unit), serial, limits, mode }
     }
 }

@@ -1,10 +1,8 @@
 //! Pieces of path in pose coordinates, proved to lie in one aspect all along.
 
-use crate::chart::Chart;
-use crate::chart::Coordinates;
-use crate::demand::{Demand, demands_of};
+use crate::chart::{Chart, Coordinates};
+use crate::constraints::{Constraint, Constraints, Demand};
 use crate::for_platform;
-use crate::modal::Constraint;
 use aspecta_robot::Robot;
 use aspecta_robot::num::{Interval, Scalar, Slope};
 
@@ -202,7 +200,7 @@ fn stretch<const D: usize, const N: usize>(
     let x = curve.over::<N>(range);
     let (placement, legs) = chart.at::<_, D, N>(robot, &x, |k| x[k].sin_cos());
     let mut result = Stretch::Inside;
-    demands_of(robot, &placement, &legs, demand, |constraint, value| {
+    Constraints::new(robot, &placement, &legs).visit(demand, |constraint, value| {
         let value = value.tightened().range;
         if demand.crossing.is_some_and(|j| constraint == Constraint::Reach(j)) {
             if value.is_negative() {

@@ -2,7 +2,6 @@
 
 mod check;
 pub mod curve;
-pub mod named;
 pub mod spline;
 pub mod time;
 

@@ -3,16 +3,14 @@
 //! The file format is described in `docs/certificate.md`; [`crate`] checks it. Nothing in a certificate is to be believed.
 
 mod check;
-mod scale;
 mod tree;
 
 pub use check::Unsound;
-pub use scale::Scale;
 pub use tree::{DEEPEST, Entry, Leaf, Tree, TreeError};
 
-use aspecta_robot::WorkingMode;
 use aspecta_robot::chart::Chart;
-use aspecta_robot::{Robot, Window};
+pub use aspecta_robot::constraint::Scale;
+use aspecta_robot::{Robot, Window, WorkingMode};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 

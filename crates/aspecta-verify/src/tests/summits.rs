@@ -3,6 +3,7 @@
 use super::*;
 use crate::certificate::Leaf;
 use aspecta_robot::chart::Chart;
+use aspecta_robot::constraint::Scale;
 
 /// No leg can fold; the faces of the window are walls.
 const WALLED: &str = r#"
@@ -28,7 +29,7 @@ actuator = { kind = "spherical", axis = [0.0, 0.0, 1.0], zero = [0.0, 1.0, 0.0],
 fn is_summitless(window: &str, bounds: [(f64, f64); 3]) -> bool {
     let robot = Robot::from_toml(&format!("{WALLED}{window}"), "walled.toml").unwrap();
     let (modes, window) = (["+++".parse().unwrap()], robot.slice(&[]).unwrap());
-    let scale = scale(&robot, &window, &modes);
+    let scale = Scale::ones(&robot);
     let setting = Setting::new(&robot, &Chart::Pose, window, &scale);
     let y = std::array::from_fn(|k| bounds.get(k).map_or(Interval::point(0.0), |b| Interval::new(b.0, b.1)));
     let claim = Leaf { undecided: 3, summitless: 1, ..Leaf::default() };

@@ -1,10 +1,11 @@
 //! The functions whose zeros bound the aspects of a working mode, in plain f64 (*numerical*).
 //!
-//! The same [`eliminate`](aspecta::legs::Actuator::eliminate) as in the proofs gives them, with h = √max(H, 0): so they go on continuously
+//! The same [`closures`] as in the proofs gives them, with h = √max(H, 0): so they go on continuously
 //! beyond the reach of the legs, and a contour meets the boundary H = 0 without a gap.
 
 use aspecta::kinematics::WorkingMode;
-use aspecta::kinematics::limits::{LegAt, margin};
+use aspecta::kinematics::constraints::Configuration;
+use aspecta::kinematics::modal::closures;
 use aspecta::kinematics::placement::{Placement, determinant, out_of_frame, wrench};
 use aspecta::robot::{Platform, Robot};
 
@@ -45,22 +46,21 @@ impl Barriers {
 
 fn barriers<const D: usize, const N: usize>(robot: &Robot, mode: WorkingMode, pose: &[f64]) -> Barriers {
     let placement = Placement::<f64, D>::at(robot.platform, pose);
+    let legs = closures::<f64, D, N>(robot, &placement);
+    let heights: [[f64; 2]; N] = std::array::from_fn(|j| legs[j].heights());
     let mut rows = [[0.0; N]; N];
-    let (mut reaches, mut limits, mut q) = (Vec::new(), Vec::new(), Vec::new());
-    for (j, leg) in robot.legs.iter().enumerate() {
-        let arm = placement.arm(leg);
-        let span = placement.span(leg, &arm);
-        let closure = leg.actuator.eliminate(&span);
-        let at = LegAt { leg, span, closure, crank: None };
-        let sh = f64::from(mode.sign(j)) * closure.reach.max(0.0).sqrt();
+    let (mut margins, mut q) = (Vec::new(), Vec::new());
+    for (j, (leg, at)) in robot.legs.iter().zip(&legs).enumerate() {
+        let closure = &at.closure;
+        let sh = heights[j][usize::from(mode.sign(j) < 0)];
         let gradient: [f64; D] = std::array::from_fn(|k| closure.fixed[k] + sh * closure.swing[k]);
-        rows[j] = wrench(robot.platform, &out_of_frame(leg, &gradient), &arm);
+        rows[j] = wrench(robot.platform, &out_of_frame(leg, &gradient), &at.arm);
         if leg.actuator.postures() == 2 {
-            reaches.push((Kind::Serial, closure.reach));
+            margins.push((Kind::Serial, closure.reach));
         }
-        limits.extend(leg.limits.iter().map(|l| (Kind::Limit, margin(l, &at, sh, &placement))));
-        q.push(leg.actuator.drive(&span, &closure, sh).value());
+        q.push(leg.actuator.drive(&at.span, closure, sh).value());
     }
-    reaches.append(&mut limits);
-    Barriers { det: determinant(&rows), margins: reaches, q }
+    let at = Configuration { robot, placement: &placement, legs: &legs, heights: &heights, mode };
+    margins.extend(at.limits().map(|(_, margin)| (Kind::Limit, margin)));
+    Barriers { det: determinant(&rows), margins, q }
 }

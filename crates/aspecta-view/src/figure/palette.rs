@@ -1,7 +1,7 @@
 //! Colours that colour-blind readers can tell apart.
 
 use aspecta::domain::boundary::Face;
-use aspecta::kinematics::modal::Constraint;
+use aspecta::kinematics::constraints::Constraint;
 
 /// Okabe & Ito's colours (without black), then those of Tol's *muted* scheme that stay distinct from them.
 const ASPECTS: [&str; 12] = [

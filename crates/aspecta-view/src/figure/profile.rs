@@ -5,7 +5,7 @@ use super::maps::{styled_line, swatch};
 use super::palette::{self, INK, OBSTACLE};
 use super::robot::{signs, subscript};
 use super::svg::{Anchor, Svg};
-use aspecta::kinematics::modal::Constraint;
+use aspecta::kinematics::constraints::Kind;
 use aspecta::motion::{Asked, Joined, Obstacle, PathCheck, ProfilePoint};
 use aspecta::robot::Robot;
 
@@ -104,16 +104,14 @@ impl Plot<'_> {
 
 /// What fails at an obstacle, in words.
 pub fn failure(robot: &Robot, obstacle: &Obstacle) -> String {
-    let what = match obstacle.constraint {
-        Constraint::Det if obstacle.asked == Asked::Margin => "|det Â| falls below its margin".to_owned(),
-        Constraint::Reach(j) if obstacle.asked == Asked::Margin => {
+    let what = match obstacle.constraint.kind() {
+        Kind::Parallel if obstacle.asked == Asked::Margin => "|det Â| falls below its margin".to_owned(),
+        Kind::Serial(j) if obstacle.asked == Asked::Margin => {
             format!("|B{0}{0}|/max falls below its margin", subscript(j + 1))
         }
-        Constraint::Det => "det A vanishes or changes sign (parallel singularity)".to_owned(),
-        Constraint::Reach(j) => format!("leg {} is stretched or folded (serial singularity)", j + 1),
-        Constraint::Limit(j, k) => {
-            format!("leg {} meets its {} limit", j + 1, robot.legs[j].limits[k].joint())
-        }
+        Kind::Parallel => "det A vanishes or changes sign (parallel singularity)".to_owned(),
+        Kind::Serial(j) => format!("leg {} is stretched or folded (serial singularity)", j + 1),
+        Kind::Limit => format!("beyond the {}", obstacle.constraint.named(robot)),
     };
     if obstacle.proved { what } else { format!("not excluded: {what}") }
 }

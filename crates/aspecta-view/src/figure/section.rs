@@ -5,7 +5,7 @@ use super::level::chain;
 use super::survey::Lines;
 use aspecta::domain;
 use aspecta::domain::boundary::{Face, Simplex};
-use aspecta::kinematics::modal::Constraint;
+use aspecta::kinematics::constraints;
 use aspecta::num::without_turns;
 use aspecta::robot::Window;
 use std::f64::consts::PI;
@@ -42,9 +42,12 @@ impl<'a> Mesh<'a> {
 /// How lines at a face are drawn: cuts of the window as limits.
 pub fn kind(face: Face) -> Kind {
     match face {
-        Face::Of(Constraint::Det) => Kind::Parallel,
-        Face::Of(Constraint::Reach(_)) => Kind::Serial,
-        Face::Of(Constraint::Limit(..)) | Face::Cut { .. } => Kind::Limit,
+        Face::Of(constraint) => match constraint.kind() {
+            constraints::Kind::Parallel => Kind::Parallel,
+            constraints::Kind::Serial(_) => Kind::Serial,
+            constraints::Kind::Limit => Kind::Limit,
+        },
+        Face::Cut { .. } => Kind::Limit,
     }
 }
 
@@ -123,7 +126,7 @@ mod tests {
             let roll = without_turns(0.3 + f64::from(i) * 2.0 * PI / f64::from(count));
             vec![roll, 0.5, if i.is_multiple_of(2) { -1.0 } else { 1.0 }]
         };
-        let face = Face::Of(Constraint::Det);
+        let face = Face::Of(constraints::Constraint::Det);
         let corners = (0..count).map(|i| [i, (i + 1) % count, (i + 2) % count]);
         let mesh = domain::Mesh {
             vertices: (0..count).map(pose).collect(),

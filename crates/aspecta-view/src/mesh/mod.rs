@@ -9,7 +9,7 @@ use crate::figure::cut::Cut;
 use crate::figure::survey::pose_axis;
 use aspecta::domain::boundary::{Face, Simplex};
 use aspecta::domain::{Map, Mesh};
-use aspecta::kinematics::modal::Constraint;
+use aspecta::kinematics::constraints::Kind;
 use std::collections::HashMap;
 use std::f64::consts::{PI, TAU};
 
@@ -157,9 +157,11 @@ fn triple(numbers: &[f64]) -> [f64; 3] {
 /// What a face is, for people.
 pub fn name(face: Face) -> String {
     match face {
-        Face::Of(Constraint::Det) => "det A = 0".into(),
-        Face::Of(Constraint::Reach(leg)) => format!("det B = 0, leg {}", leg + 1),
-        Face::Of(Constraint::Limit(leg, limit)) => format!("joint limit {} of leg {}", limit + 1, leg + 1),
+        Face::Of(constraint) => match constraint.kind() {
+            Kind::Parallel => format!("{constraint} = 0"),
+            Kind::Serial(leg) => format!("det B = 0, leg {}", leg + 1),
+            Kind::Limit => constraint.to_string(),
+        },
         Face::Cut { coordinate, upper } => {
             let end = if upper { "upper" } else { "lower" };
             format!("{end} end of the window, coordinate {}", coordinate + 1)

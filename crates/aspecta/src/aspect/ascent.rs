@@ -7,8 +7,7 @@ use super::components::{Components, UnionFind};
 use crate::paving::{ClassSet, Paving};
 use aspecta_kinematics::chart::Chart;
 use aspecta_kinematics::chart::Coordinates;
-use aspecta_kinematics::demand::{Demand, demands_of};
-use aspecta_kinematics::modal::Constraint;
+use aspecta_kinematics::constraints::{Constraints, Demand, Kind};
 use aspecta_kinematics::path::curve::Along;
 use aspecta_kinematics::{WorkingMode, for_platform};
 use aspecta_robot::Robot;
@@ -205,8 +204,12 @@ fn potential<T: Logarithm, const D: usize, const N: usize>(
 ) -> Option<T> {
     let (placement, legs) = chart.at::<T, D, N>(robot, x, |k| x[k].sin_cos());
     let mut sum = Some(T::zero());
-    demands_of(robot, &placement, &legs, &Demand::class(class.mode, class.sign), |constraint, value| {
-        let weight = if matches!(constraint, Constraint::Reach(_)) { 0.5 } else { 1.0 };
+    let demand = Demand::class(class.mode, class.sign);
+    Constraints::new(robot, &placement, &legs).visit(&demand, |constraint, value| {
+        let weight = match constraint.kind() {
+            Kind::Serial(_) => 0.5,
+            Kind::Parallel | Kind::Limit => 1.0,
+        };
         sum = sum.filter(|_| value.number() > 0.0).map(|s| s + value.ln().scale(Interval::point(weight)));
         sum.is_some()
     });

@@ -1,17 +1,17 @@
 //! The charts of a robot, paved.
 
-use super::scale::scale;
+use super::scale;
 use super::seams::{base_of, middle};
 use super::summit::summitless;
 use crate::paving::{Budget, ClassSet, Control, Node, Paving, Progress, for_paving};
 use aspecta_kinematics::chart::Coordinates;
 use aspecta_kinematics::chart::{Chart, charts};
+use aspecta_kinematics::constraints::Scale;
 use aspecta_kinematics::for_platform;
 use aspecta_robot::WorkingMode;
 use aspecta_robot::num::{Interval, Scalar};
 use aspecta_robot::work::Stopwatch;
 use aspecta_robot::{Robot, Window};
-use aspecta_verify::certificate::Scale;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A box: sheet and node.
@@ -93,7 +93,7 @@ impl<'a> Atlas<'a> {
         poses.nodes.iter_mut().for_each(|node| node.covered = replaced);
         let blank = charts.iter().map(|chart| Paving::blank(chart.clone(), chart.window(window), modes));
         let sheets = std::iter::once(poses).chain(blank).collect();
-        Self { scale: scale(robot, window, modes), robot, charts, sheets }
+        Self { scale: scale::typical(robot, window, modes), robot, charts, sheets }
     }
 
     /// Classes of which nothing is settled in a box: it is neither inside nor outside, and might hide a whole aspect.

@@ -5,11 +5,9 @@ use super::atlas::{Atlas, Leaf};
 use super::count::Counted;
 use super::result::{DetSign, Doubt, DoubtKind};
 use super::seams::poses;
-use aspecta_kinematics::chart::Chart;
-use aspecta_kinematics::chart::Coordinates;
+use aspecta_kinematics::chart::{Chart, Coordinates};
+use aspecta_kinematics::constraints::{Constraints, Demand};
 use aspecta_kinematics::for_platform;
-use aspecta_kinematics::limits::margin;
-use aspecta_kinematics::modal::ModalRows;
 use aspecta_robot::num::{Interval, Scalar};
 
 /// What keeps the bounds of a class apart.
@@ -58,7 +56,7 @@ fn poses_within(atlas: &Atlas<'_>, leaf: Leaf) -> Vec<Interval> {
     poses(atlas.robot, &atlas.sheets, leaf).into_iter().zip(ranges).map(within).collect()
 }
 
-/// Names of the functions that may vanish in a box.
+/// Names of the functions that may vanish in a box: det A, then leg by leg.
 fn undecided<const D: usize, const N: usize>(
     atlas: &Atlas<'_>,
     class: Class,
@@ -69,24 +67,14 @@ fn undecided<const D: usize, const N: usize>(
     let y: [Interval; N] = std::array::from_fn(|k| place[k]);
     let chart = &atlas.sheets[sheet].chart;
     let (placement, legs) = chart.at::<Interval, D, N>(robot, &y, |k| y[k].sin_cos());
-    let heights: [[Interval; 2]; N] = std::array::from_fn(|j| legs[j].heights());
-    let mut names = Vec::new();
-    let mut note = |name: String, value: Interval| {
+    let mut undecided = Vec::new();
+    let demand = Demand::class(class.mode, class.sign);
+    Constraints::new(robot, &placement, &legs).visit(&demand, |constraint, value| {
         if value.sign() == 0 {
-            names.push(name);
+            undecided.push(constraint);
         }
-    };
-    let rows = ModalRows::<Interval, N>::new(robot, &legs, &std::array::from_fn(|j| heights[j][0]));
-    note("det A".into(), rows.det(class.mode));
-    for (j, leg) in robot.legs.iter().enumerate() {
-        if leg.actuator.postures() == 2 {
-            note(format!("H_{}", j + 1), legs[j].closure.reach);
-        }
-        let at = legs[j].limited(leg);
-        for limit in &leg.limits {
-            let sh = heights[j][usize::from(class.mode.sign(j) < 0)];
-            note(format!("{} limit of leg {}", limit.joint(), j + 1), margin(limit, &at, sh, &placement));
-        }
-    }
-    names
+        true
+    });
+    undecided.sort_by_key(|constraint| constraint.leg());
+    undecided.into_iter().map(|constraint| constraint.named(robot)).collect()
 }

@@ -7,6 +7,7 @@ use super::components::Components;
 use super::result::{EarlierAspects, EarlierDomain, Sample};
 use crate::paving::{ClassSet, Mark, Node, Paving};
 use aspecta_kinematics::Kinematics;
+use aspecta_kinematics::constraints::is_limited;
 use aspecta_robot::Robot;
 use aspecta_robot::WorkingMode;
 use aspecta_robot::work;
@@ -31,8 +32,7 @@ pub(super) fn parallel_aspects(robot: &Robot, paving: &Paving) -> Vec<EarlierAsp
 pub(super) fn serial_aspects(robot: &Robot, paving: &Paving) -> Vec<EarlierAspects> {
     let count = paving.modes.len();
     // Without limits every mode exists at the same poses.
-    let unlimited = robot.legs.iter().all(|leg| leg.limits.is_empty());
-    let different = if unlimited { 1 } else { count };
+    let different = if is_limited(robot) { count } else { 1 };
     let found: Vec<(Vec<Domain>, f64)> = work::map_range(different, |m| {
         let next = (m + 1) % count;
         let shared = |node: &Node| intersection(node.of_mode(m), node.of_mode(next));

@@ -30,7 +30,7 @@ mod summit;
 pub(crate) use components::UnionFind;
 
 pub use analyze::analyze;
-pub use aspecta_verify::certificate::Scale;
+pub use aspecta_robot::constraint::Scale;
 pub use certify::certify;
 pub use measure::{Held, Measure, Unit};
 pub use options::Options;
@@ -39,4 +39,4 @@ pub use result::{
     Analysis, Aspect, AspectClass, Cell, Count, DetSign, Doubt, DoubtKind, EarlierAspects, EarlierDomain,
     FORMAT_VERSION, LegReport, ModeReport, Place, Reachable, Run, Sample,
 };
-pub use scale::scale;
+pub use scale::typical;

@@ -1,19 +1,16 @@
 //! How large the constraints typically are, to make them comparable.
 
-use aspecta_kinematics::chart::Chart;
-use aspecta_kinematics::chart::Coordinates;
+use aspecta_kinematics::chart::{Chart, Coordinates};
+use aspecta_kinematics::constraints::{Configuration, Constraint, Scale};
 use aspecta_kinematics::for_platform;
-use aspecta_kinematics::limits::{margin, unit};
 use aspecta_kinematics::modal::ModalRows;
-use aspecta_robot::WorkingMode;
-use aspecta_robot::{Robot, Window};
-use aspecta_verify::certificate::Scale;
+use aspecta_robot::{Robot, Window, WorkingMode};
 
 /// Sample poses per coordinate.
 const SAMPLES: usize = 8;
 
-/// Mean magnitudes over a grid of poses.
-pub fn scale(robot: &Robot, window: &Window, modes: &[WorkingMode]) -> Scale {
+/// The mean magnitudes of the constraints over a grid of poses.
+pub fn typical(robot: &Robot, window: &Window, modes: &[WorkingMode]) -> Scale {
     for_platform!(robot.platform, sample(robot, window, modes))
 }
 
@@ -41,8 +38,10 @@ impl Mean {
 fn sample<const D: usize, const N: usize>(robot: &Robot, window: &Window, modes: &[WorkingMode]) -> Scale {
     let mut det = Mean::default();
     let mut reach = [Mean::default(); N];
-    let mut limits: Vec<Vec<Mean>> =
-        robot.legs.iter().map(|leg| vec![Mean::default(); leg.limits.len()]).collect();
+    let mut limits: Vec<(Constraint, Mean)> = Constraint::of(robot)
+        .filter(|constraint| constraint.is_limit())
+        .map(|constraint| (constraint, Mean::default()))
+        .collect();
     let axes = window.axes();
     for index in 0..SAMPLES.pow(axes.len() as u32) {
         let mut pose: [f64; N] = std::array::from_fn(|k| window.ranges[k].0);
@@ -56,22 +55,20 @@ fn sample<const D: usize, const N: usize>(robot: &Robot, window: &Window, modes:
             continue;
         }
         let heights: [[f64; 2]; N] = std::array::from_fn(|j| legs[j].heights());
-        for (j, leg) in robot.legs.iter().enumerate() {
-            reach[j].add(legs[j].closure.reach);
-            let at = legs[j].limited(leg);
-            for (mean, limit) in limits[j].iter_mut().zip(&leg.limits) {
-                heights[j]
-                    .iter()
-                    .for_each(|&sh| mean.add(margin(limit, &at, sh, &placement) / unit(limit, &at, sh)));
+        reach.iter_mut().zip(&legs).for_each(|(mean, leg)| mean.add(leg.closure.reach));
+        for (constraint, mean) in &mut limits {
+            for mode in constraint.postures().choices(N) {
+                let at = Configuration { robot, placement: &placement, legs: &legs, heights: &heights, mode };
+                mean.add(at.margin(*constraint) / at.unit(*constraint));
             }
         }
         let rows = ModalRows::<f64, N>::new(robot, &legs, &std::array::from_fn(|j| heights[j][0]));
         let weights: f64 = legs.iter().map(|leg| leg.closure.weight).product();
         modes.iter().for_each(|&mode| det.add(rows.det(mode) / weights));
     }
-    Scale {
-        det: det.value(),
-        reach: reach.iter().map(|mean| mean.value()).collect(),
-        limits: limits.iter().map(|leg| leg.iter().map(|mean| mean.value()).collect()).collect(),
-    }
+    let mut scale = Scale::ones(robot);
+    scale.det = det.value();
+    scale.reach.iter_mut().zip(reach).for_each(|(scale, mean)| *scale = mean.value());
+    limits.iter().for_each(|(constraint, mean)| scale[*constraint] = mean.value());
+    scale
 }

@@ -24,23 +24,28 @@
 //! n in all, along which everything is bounded with h_j ∈ [0, h̄_j] as a variable of its own.
 
 mod climb;
+mod determinant;
+mod form;
 mod frame;
 mod leg;
+mod limit;
 mod view;
+mod way;
 
 use super::saddle::no_local_maximum;
 use crate::paving::{ClassSet, Paving};
 use arrayvec::ArrayVec;
+use aspecta_kinematics::constraints::Scale;
 use aspecta_robot::Robot;
 use aspecta_robot::WorkingMode;
 use aspecta_robot::num::{Interval, LANES, Mask, Pack};
 use aspecta_robot::work;
-use aspecta_verify::certificate::Scale;
 use climb::can_climb;
+use determinant::Determinant;
 use frame::Frame;
-use leg::LegPart;
 use std::cell::LazyCell;
 use view::View;
+use way::Way;
 
 /// More constraints than any robot file can bring to bear on one box at once.
 const MOST: usize = 64;
@@ -119,8 +124,7 @@ impl<'a, const D: usize, const N: usize, const M: usize> Eight<'a, D, N, M> {
     /// With the range of h cut into parts, and then to second order.
     fn look_closer(&self) -> Vec<ClassSet> {
         let mut proved = self.by_parts();
-        let regular =
-            LazyCell::new(|| std::array::from_fn(|j| self.view.leg(j, self.view.heights[j], [false; LANES])));
+        let regular = LazyCell::new(|| Way::new(self.view, &[[false; LANES]; N]));
         for (l, &(node, _)) in
             self.boxes.iter().enumerate().filter(|(_, b)| self.view.paving.depth_of(b.0) >= DEEP)
         {
@@ -146,11 +150,7 @@ impl<'a, const D: usize, const N: usize, const M: usize> Eight<'a, D, N, M> {
         let mut ways = self.whole();
         let mut held = self.asked;
         for heights in parts(&self.view.heights, &singular, depth) {
-            for j in (0..N).filter(|&j| singular[j]) {
-                for way in ways.iter_mut().filter(|way| way[j].height != heights[j]) {
-                    way[j] = self.view.leg(j, heights[j], way[j].singular);
-                }
-            }
+            ways.iter_mut().for_each(|way| way.set(&heights));
             let found = self.over(&ways, &held);
             (0..LANES).for_each(|l| held[l] &= found[l]);
             if held == [0; LANES] {
@@ -161,34 +161,33 @@ impl<'a, const D: usize, const N: usize, const M: usize> Eight<'a, D, N, M> {
     }
 
     /// The robot with the whole range of h, for each choice of singular legs.
-    fn whole(&self) -> ArrayVec<[LegPart<N, M>; N], 2> {
-        let leg = |singular: &[Mask; N], j: usize| self.view.leg(j, self.view.heights[j], singular[j]);
-        self.view.choices().iter().map(|singular| std::array::from_fn(|j| leg(singular, j))).collect()
+    fn whole(&self) -> ArrayVec<Way<'a, D, N, M>, 2> {
+        self.view.choices().iter().map(|singular| Way::new(self.view, singular)).collect()
     }
 
     /// Of the classes asked, those without a summit, by any of some choices of singular legs.
-    fn over(&self, ways: &[[LegPart<N, M>; N]], asked: &[ClassSet; LANES]) -> [ClassSet; LANES] {
+    fn over(&self, ways: &[Way<'_, D, N, M>], asked: &[ClassSet; LANES]) -> [ClassSet; LANES] {
         let mut proved = [0; LANES];
-        for legs in ways {
+        for way in ways {
             let left: [ClassSet; LANES] = std::array::from_fn(|l| asked[l] & !proved[l]);
-            let found = self.by(legs, &left);
+            let found = self.by(way, &left);
             (0..LANES).for_each(|l| proved[l] |= found[l]);
         }
         proved
     }
 
-    /// The same by one.
-    fn by(&self, legs: &[LegPart<N, M>; N], asked: &[ClassSet; LANES]) -> [ClassSet; LANES] {
+    /// Of the classes asked, those without a summit by one choice.
+    fn by(&self, way: &Way<'_, D, N, M>, asked: &[ClassSet; LANES]) -> [ClassSet; LANES] {
         let view = &self.view;
-        let frame = |l: usize| (asked[l] != 0).then(|| Frame::new(view, legs, l)).flatten();
+        let frame = |l: usize| (asked[l] != 0).then(|| Frame::new(view, &way.legs, l)).flatten();
         let frames: [Option<Frame<N, M>>; LANES] = std::array::from_fn(frame);
         let any = asked.iter().fold(0, |any, classes| any | classes);
         let mut proved = [0; LANES];
         for (m, &mode) in view.paving.modes.iter().enumerate().filter(|(m, _)| any >> (2 * m) & 3 != 0) {
-            let det = view.determinant(legs, mode);
+            let det = Determinant::new(view, &way.legs, mode);
             for (l, frame) in frames.iter().enumerate().filter(|(l, _)| asked[*l] >> (2 * m) & 3 != 0) {
                 let Some(frame) = frame else { continue };
-                let common = view.constraints(legs, frame, mode, l);
+                let common = way.constraints(frame, mode, l);
                 let det = det.growth(frame, mode, view.scale, l);
                 for (sign, bit) in [(1.0, 1 << (2 * m)), (-1.0, 2 << (2 * m))] {
                     if asked[l] & bit != 0 && can_climb(&common, &det.signed(sign)) {
@@ -203,18 +202,16 @@ impl<'a, const D: usize, const N: usize, const M: usize> Eight<'a, D, N, M> {
     /// The classes of a mode without a summit in one box by the second-order test ([`no_local_maximum`]), none of the `legs` being singular.
     fn saddles(
         &self,
-        legs: &[LegPart<N, M>; N],
+        way: &Way<'_, D, N, M>,
         node: u32,
         lane: usize,
         (m, mode): (usize, WorkingMode),
     ) -> ClassSet {
         let view = &self.view;
-        let Some(frame) = Frame::new(view, legs, lane) else { return 0 };
-        let least = view
-            .constraints(legs, &frame, mode, lane)
-            .iter()
-            .fold(f64::INFINITY, |least, g| least.min(g.value.lo));
-        let det = view.determinant(legs, mode).growth(&frame, mode, view.scale, lane).value;
+        let Some(frame) = Frame::new(view, &way.legs, lane) else { return 0 };
+        let least =
+            way.constraints(&frame, mode, lane).iter().fold(f64::INFINITY, |least, g| least.min(g.value.lo));
+        let det = Determinant::new(view, &way.legs, mode).growth(&frame, mode, view.scale, lane).value;
         if least <= 0.0 || det.magnitude() >= least {
             return 0;
         }

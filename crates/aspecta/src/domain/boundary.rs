@@ -9,34 +9,20 @@
 mod corner;
 mod lattice;
 
+pub use super::face::Face;
 pub(crate) use corner::onto;
 pub(super) use lattice::orders;
 
 use super::field::Field;
 use crate::aspect::{Analysis, Aspect, DetSign, Place};
-use aspecta_kinematics::modal::Constraint;
+use aspecta_kinematics::constraints::Constraint;
 use aspecta_kinematics::{WorkingMode, for_platform};
 use aspecta_robot::work;
 use lattice::{Edge, Lattice, Tag};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// How far from its faces, in widths of the window, a vertex may be and count as placed.
 pub const PLACED: f64 = 1e-9;
-
-/// What bounds an aspect.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Face {
-    /// det A = 0 (parallel singularity), H_j = 0 (serial singularity) or a joint limit; legs and limits count from 0.
-    Of(Constraint),
-    /// An end of the window's range: the user's cut (or the poles of a pitch), beyond which nothing was looked at.
-    Cut {
-        /// The coordinate, from 0.
-        coordinate: usize,
-        /// Whether it is the upper end.
-        upper: bool,
-    },
-}
 
 /// A point of the boundary.
 #[derive(Clone, Debug, Serialize)]

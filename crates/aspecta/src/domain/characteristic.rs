@@ -16,8 +16,6 @@ use crate::aspect::Analysis;
 use crate::domain::boundary::{Boundary, BoundaryVertex, Simplex};
 use crate::domain::field::Field;
 use aspecta_kinematics::for_platform;
-use aspecta_kinematics::modal::Constraint;
-use aspecta_robot::Limit;
 use net::Net;
 use serde::{Deserialize, Serialize};
 
@@ -132,14 +130,4 @@ fn trace<const D: usize, const N: usize>(analysis: &Analysis, boundary: &Boundar
         open = net.halve(&pairings, &rest);
     }
     net.finish(given_up)
-}
-
-/// Whether a limit is one of a driven joint, so that it says something of q alone.
-fn is_driven(limit: &Limit) -> bool {
-    matches!(limit, Limit::ActuatorAngle { .. } | Limit::ActuatorLength { .. })
-}
-
-/// The limit of a constraint, if it is one of a driven joint of `robot`.
-fn is_driven_constraint(robot: &aspecta_robot::Robot, constraint: Constraint) -> bool {
-    matches!(constraint, Constraint::Limit(j, k) if is_driven(&robot.legs[j].limits[k]))
 }

@@ -1,9 +1,9 @@
 //! The functions whose common positivity region is a class of aspects, in plain doubles, with their gradients.
 
-use super::boundary::Face;
+use super::face::Face;
 use crate::aspect::{Analysis, DetSign, Place};
-use aspecta_kinematics::limits::margin;
-use aspecta_kinematics::modal::{Constraint, LegClosure, ModalRows, closures};
+use aspecta_kinematics::constraints::{Constraint, Constraints, Demand};
+use aspecta_kinematics::modal::{LegClosure, closures};
 use aspecta_kinematics::placement::{Placement, leg_gradient, moved, wrench};
 use aspecta_kinematics::{SINGULAR, WorkingMode};
 use aspecta_robot::num::{Interval, Jet, Scalar, each, without_turns};
@@ -122,26 +122,10 @@ impl<const D: usize, const N: usize> Field<'_, D, N> {
         }
         let placement = Placement::<T, D>::at(self.robot.platform, x);
         let legs = closures::<T, D, N>(self.robot, &placement);
-        for (j, at) in legs.iter().enumerate() {
-            if self.robot.legs[j].actuator.postures() == 2
-                && !visit(Face::Of(Constraint::Reach(j)), at.closure.reach)
-            {
-                return;
-            }
-        }
-        let heights = self.heights(&legs, flat);
-        for (j, at) in legs.iter().enumerate() {
-            let leg = &self.robot.legs[j];
-            let sh = if self.mode.sign(j) > 0 { heights[j] } else { -heights[j] };
-            for (k, limit) in leg.limits.iter().enumerate() {
-                let value = margin(limit, &at.limited(leg), sh, &placement);
-                if !visit(Face::Of(Constraint::Limit(j, k)), value) {
-                    return;
-                }
-            }
-        }
-        let det = ModalRows::<T, N>::new(self.robot, &legs, &heights).det(self.mode);
-        visit(Face::Of(Constraint::Det), if self.sign == DetSign::Positive { det } else { -det });
+        let constraints = Constraints { robot: self.robot, placement: &placement, legs: &legs, flat };
+        constraints.visit(&Demand::class(self.mode, self.sign.factor()), |constraint, value| {
+            visit(Face::Of(constraint), value)
+        });
     }
 
     fn heights<T: Scalar>(&self, legs: &[LegClosure<T, D>; N], flat: u8) -> [T; N] {

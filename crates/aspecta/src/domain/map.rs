@@ -9,7 +9,7 @@ mod file;
 
 pub use file::{MAP_VERSION, MapError};
 
-use super::boundary::Face;
+use super::face::Face;
 use super::field::Field;
 use super::grid::Pose;
 use super::labels::OUTSIDE;
@@ -17,8 +17,7 @@ use super::mesh::Surfaces;
 use super::result::Domains;
 use super::sheet::{Belongs, Sheet};
 use crate::aspect::{Analysis, Count, DetSign, Measure};
-use aspecta_kinematics::demand::Demand;
-use aspecta_kinematics::modal::Constraint;
+use aspecta_kinematics::constraints::{Constraint, Demand, Kind};
 use aspecta_kinematics::path::curve::Along;
 use aspecta_kinematics::{KinematicsError, WorkingMode, check_pose, for_platform};
 use aspecta_robot::num::padded;
@@ -91,14 +90,9 @@ pub enum Nowhere {
     /// A leg does not reach it, or just so: at a serial singularity.
     #[error("leg {0} does not reach")]
     OutOfReach(usize),
-    /// A joint limit.
-    #[error("limit {limit} of leg {leg}")]
-    Limit {
-        /// The leg, from 1.
-        leg: usize,
-        /// Its limit, from 1.
-        limit: usize,
-    },
+    /// A limit of the machine.
+    #[error("beyond {0}")]
+    Limit(Constraint),
     /// det A = 0, to rounding.
     #[error("parallel singularity")]
     Singular,
@@ -212,9 +206,11 @@ fn sign_at<const D: usize, const N: usize>(
 ) -> Result<DetSign, Nowhere> {
     let field = Field::<D, N> { robot: &map.robot, mode, sign: DetSign::Positive, window: &map.window };
     field.sign_at(&std::array::from_fn(|k| pose[k])).map_err(|face| match face {
-        Face::Of(Constraint::Det) => Nowhere::Singular,
-        Face::Of(Constraint::Reach(leg)) => Nowhere::OutOfReach(leg + 1),
-        Face::Of(Constraint::Limit(leg, limit)) => Nowhere::Limit { leg: leg + 1, limit: limit + 1 },
+        Face::Of(constraint) => match constraint.kind() {
+            Kind::Parallel => Nowhere::Singular,
+            Kind::Serial(leg) => Nowhere::OutOfReach(leg + 1),
+            Kind::Limit => Nowhere::Limit(constraint),
+        },
         Face::Cut { .. } => Nowhere::Window,
     })
 }

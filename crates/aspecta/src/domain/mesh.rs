@@ -1,7 +1,8 @@
 //! Curves and surfaces over poses, without how they came about.
 
-use super::boundary::{Boundary, Face, Simplex};
+use super::boundary::{Boundary, Simplex};
 use super::characteristic::{Characteristic, GivenUp};
+use super::face::Face;
 use serde::{Deserialize, Serialize};
 
 /// Segments or triangles over poses of two or three coordinates.

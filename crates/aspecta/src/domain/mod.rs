@@ -11,6 +11,7 @@ mod analysis;
 pub mod boundary;
 pub mod characteristic;
 pub use aspecta_kinematics::cusps;
+mod face;
 mod field;
 mod grid;
 mod images;

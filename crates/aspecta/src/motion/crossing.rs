@@ -6,14 +6,13 @@
 //! every crossing: aspects of different signs are never joined so.
 
 use crate::aspect::{Analysis, DetSign, Place};
-use aspecta_kinematics::demand::{Demand, Margins, measures};
+use aspecta_kinematics::constraints::{Demand, Margins, measures};
 use aspecta_kinematics::modal::closures;
 use aspecta_kinematics::path::curve::{Along, Curve, along};
 use aspecta_kinematics::placement::Placement;
 use aspecta_kinematics::{WorkingMode, for_platform};
-use aspecta_robot::Robot;
 use aspecta_robot::num::Jet;
-use aspecta_robot::work;
+use aspecta_robot::{Robot, work};
 use serde::Serialize;
 use std::collections::BTreeMap;
 

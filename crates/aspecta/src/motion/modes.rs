@@ -7,10 +7,9 @@ use super::plan::{End, Plan, PlanOptions, Planner, Refusal};
 use super::time::{Piece, Waypoint};
 use crate::aspect::{Analysis, Count, DetSign};
 use aspecta_kinematics::Kinematics;
-use aspecta_kinematics::demand::Margins;
+use aspecta_kinematics::constraints::Margins;
 use aspecta_kinematics::path::go_on_from;
-use aspecta_robot::WorkingMode;
-use aspecta_robot::{Robot, Window};
+use aspecta_robot::{Robot, Window, WorkingMode};
 use serde::Serialize;
 use std::collections::VecDeque;
 

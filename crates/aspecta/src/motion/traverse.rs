@@ -9,10 +9,9 @@ use super::modes::ModeGraph;
 use super::plan::refusal::aspect_at;
 use super::plan::{PlanOptions, Planner};
 use crate::aspect::{Analysis, DetSign};
-use aspecta_kinematics::demand::{Demand, demands};
-use aspecta_kinematics::modal::Constraint;
+use aspecta_kinematics::constraints::{self, Constraint, Constraints, Demand};
+use aspecta_kinematics::modal::closures;
 use aspecta_kinematics::path::curve::{Along, Curve, along};
-use aspecta_kinematics::path::named;
 use aspecta_kinematics::placement::Placement;
 use aspecta_kinematics::{KinematicsError, WorkingMode, check_pose, for_platform};
 use aspecta_robot::num::{Interval, Scalar, Slope};
@@ -52,7 +51,7 @@ pub enum Holds {
         /// The pose.
         pose: Vec<f64>,
         /// What fails there; `None` if it lies in another aspect, or beyond the window that the robot file sets.
-        #[serde(serialize_with = "named::if_any")]
+        #[serde(serialize_with = "constraints::if_any")]
         constraint: Option<Constraint>,
     },
     /// Neither could be proved.
@@ -267,7 +266,9 @@ fn over_part<const D: usize, const N: usize>(robot: &Robot, demand: &Demand, par
         Slope::variable(part[k], middle, radius, k)
     });
     let mut result = Part::Inside;
-    demands::<_, D, N>(robot, &Placement::at(robot.platform, &x), demand, |constraint, value| {
+    let placement = Placement::<_, D>::at(robot.platform, &x);
+    let legs = closures::<_, D, N>(robot, &placement);
+    Constraints::new(robot, &placement, &legs).visit(demand, |constraint, value| {
         let value = value.tightened().range;
         if value.is_negative() {
             result = Part::Outside(constraint);

@@ -1,14 +1,15 @@
 //! What intervals prove of eight boxes at once, in every working mode.
 
 use super::ClassSet;
+use super::MODES;
 use super::tree::{Node, Paving};
 use arrayvec::ArrayVec;
 use aspecta_kinematics::chart::Chart;
 use aspecta_kinematics::chart::Coordinates;
-use aspecta_kinematics::limits::margin;
+use aspecta_kinematics::constraints::{Configuration, Constraint, Kind};
 use aspecta_kinematics::modal::{LegClosure, ModalRows};
 use aspecta_kinematics::placement::Placement;
-use aspecta_robot::WorkingMode;
+use aspecta_kinematics::{LegSet, WorkingMode};
 use aspecta_robot::num::{Interval, LANES, Mask, Pack, Scalar, Slope, each};
 use aspecta_robot::{Robot, Window};
 
@@ -158,7 +159,27 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
             }
         }
         let heights: [[_; 2]; N] = std::array::from_fn(|j| legs[j].heights());
-        let limits = self.limits(legs, &heights, placement);
+        let mut known = ByMode { kept: [closes; MODES], broken: [[false; LANES]; MODES] };
+        for constraint in Constraint::of(self.robot) {
+            match constraint.kind() {
+                // Looked at in poses already; in a leg's own coordinates being in the posture is one of its limits.
+                Kind::Serial(j) => {
+                    let Some(fold) = &legs[j].fold else { continue };
+                    let in_posture = |mode: WorkingMode| if mode.sign(j) > 0 { fold.b } else { -fold.b };
+                    known.note(self.modes, wanted, LegSet::of(j), in_posture);
+                }
+                Kind::Limit => {
+                    let margin = |mode| {
+                        let at =
+                            Configuration { robot: self.robot, placement, legs, heights: &heights, mode };
+                        at.margin(constraint)
+                    };
+                    known.note(self.modes, wanted, constraint.postures(), margin);
+                }
+                // Follows, for all modes at once.
+                Kind::Parallel => {}
+            }
+        }
         let rows = ModalRows::new(self.robot, legs, &each!(|j| heights[j][0]));
         rows.dets(self.modes, wanted, |m, det| {
             let det = det.tightened().range;
@@ -173,57 +194,44 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
                 }
             }
             for l in 0..LANES {
-                let (kept, broken) = limits.of(self.modes[m], l);
-                boxes[l].settle(m, closes[l] && kept, broken, positive[l], negative[l]);
+                boxes[l].settle(m, known.kept[m][l], known.broken[m][l], positive[l], negative[l]);
             }
         });
     }
+}
 
-    /// Whether the limits of each leg and posture are kept or broken. Where a leg's own coordinates are used, being in the
-    /// posture is one of them.
-    fn limits(
-        &self,
-        legs: &[LegClosure<Slope<Pack, M>, D>; N],
-        heights: &[[Slope<Pack, M>; 2]; N],
-        placement: &Placement<Slope<Pack, M>, D>,
-    ) -> LimitMasks<N> {
-        let mut masks = LimitMasks { kept: [[[true; LANES]; 2]; N], broken: [[[false; LANES]; 2]; N] };
-        for (j, leg) in self.robot.legs.iter().enumerate() {
-            if let Some(fold) = &legs[j].fold {
-                masks.add(j, 0, fold.b);
-                masks.add(j, 1, -fold.b);
-            }
-            let at = legs[j].limited(leg);
-            for limit in &leg.limits {
-                for posture in 0..2 {
-                    masks.add(j, posture, margin(limit, &at, heights[j][posture], placement));
+/// What is proved of the existence of each mode.
+struct ByMode {
+    /// All legs close and all limits are kept.
+    kept: [Mask; MODES],
+    /// Some limit is broken.
+    broken: [Mask; MODES],
+}
+
+impl ByMode {
+    /// Takes account of a function that is positive within a limit, for the modes wanted; it is evaluated once for each choice of
+    /// postures of the legs on which it depends.
+    fn note<const M: usize>(
+        &mut self,
+        modes: &[WorkingMode],
+        wanted: u8,
+        legs: LegSet,
+        function: impl Fn(WorkingMode) -> Slope<Pack, M>,
+    ) {
+        let mut left = wanted;
+        while left != 0 {
+            let mode = modes[left.trailing_zeros() as usize];
+            let range = function(mode).tightened().range;
+            let (positive, negative) = (range.positive(), range.negative());
+            let now = left;
+            for m in (0..modes.len()).filter(|&m| now >> m & 1 == 1 && legs.are_alike(mode, modes[m])) {
+                left &= !(1 << m);
+                for l in 0..LANES {
+                    self.kept[m][l] &= positive[l];
+                    self.broken[m][l] |= negative[l];
                 }
             }
         }
-        masks
-    }
-}
-
-struct LimitMasks<const N: usize> {
-    kept: [[Mask; 2]; N],
-    broken: [[Mask; 2]; N],
-}
-
-impl<const N: usize> LimitMasks<N> {
-    fn add<const M: usize>(&mut self, j: usize, posture: usize, margin: Slope<Pack, M>) {
-        let range = margin.tightened().range;
-        let (positive, negative) = (range.positive(), range.negative());
-        for l in 0..LANES {
-            self.kept[j][posture][l] &= positive[l];
-            self.broken[j][posture][l] |= negative[l];
-        }
-    }
-
-    /// (all kept, some broken) in `mode`, for one lane.
-    fn of(&self, mode: WorkingMode, lane: usize) -> (bool, bool) {
-        let posture = |j: usize| usize::from(mode.sign(j) < 0);
-        let kept = (0..N).all(|j| self.kept[j][posture(j)][lane]);
-        (kept, (0..N).any(|j| self.broken[j][posture(j)][lane]))
     }
 }
 

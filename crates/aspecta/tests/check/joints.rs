@@ -3,7 +3,7 @@
 use crate::random::Random;
 use crate::{clearance_holds, minima, mode, options, robot, robots, samples};
 use aspecta::Kinematics;
-use aspecta::kinematics::modal::Constraint;
+use aspecta::kinematics::constraints::Constraint;
 use aspecta::motion::{Asked, Joined, PathOptions, check_joints, check_path, check_poses};
 
 /// How far apart two poses are, angles as numbers.

@@ -3,8 +3,7 @@
 use crate::random::Random;
 use crate::{clearance_holds, mode, options, robot, robots, samples};
 use aspecta::Kinematics;
-use aspecta::kinematics::demand::Margins;
-use aspecta::kinematics::modal::Constraint;
+use aspecta::kinematics::constraints::{Constraint, Margins};
 use aspecta::motion::{Asked, Joined, PathCheck, PathError, PathOptions, check_poses};
 use aspecta::robot::Robot;
 

@@ -6,7 +6,7 @@ mod split_mix;
 
 use aspecta::Kinematics;
 use aspecta::aspect::DetSign;
-use aspecta::kinematics::demand::{Demand, Margins};
+use aspecta::kinematics::constraints::{Demand, Margins};
 use aspecta::kinematics::path::curve::{Along, Curve, along};
 use aspecta::kinematics::{DirectSolutions, Solution, WorkingMode};
 use aspecta::motion::explore::{Effort, End, ExploreError, NoWay, explore, join_solutions, plan};

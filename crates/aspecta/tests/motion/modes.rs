@@ -3,7 +3,7 @@
 use super::*;
 use aspecta::Kinematics;
 use aspecta::aspect::DetSign;
-use aspecta::kinematics::demand::Margins;
+use aspecta::kinematics::constraints::Margins;
 use aspecta::motion::modes::{Configuration, ModeGraph, NoRoute};
 use aspecta::motion::plan::{PlanOptions, Planner};
 use aspecta::motion::time::{JointLimits, trajectory};

@@ -2,7 +2,7 @@
 
 use super::*;
 use aspecta::Kinematics;
-use aspecta::kinematics::demand::Margins;
+use aspecta::kinematics::constraints::Margins;
 use aspecta::motion::plan::{End, PlanOptions, Planner, Refusal};
 use aspecta::motion::{Joined, PathOptions, check_poses};
 use aspecta::robot::Platform;

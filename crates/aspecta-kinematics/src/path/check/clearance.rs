@@ -1,6 +1,6 @@
 //! How near a path comes to singularities: minima along it, enclosed by branch and bound.
 
-use crate::demand::measures;
+use crate::constraints::measures;
 use crate::modal::{ModalRows, closures};
 use crate::path::curve::Curve;
 use crate::placement::Placement;
@@ -21,7 +21,7 @@ const EFFORT: usize = 2000;
 pub struct Clearance {
     /// The least |det A|, in the unit of the leg equations: the paper's.
     pub det_a: Least,
-    /// The least |det Â| ([`Margins`](crate::demand::Margins)), which has no unit.
+    /// The least |det Â| ([`Margins`](crate::constraints::Margins)), which has no unit.
     pub parallel: Least,
     /// The least |B_jj| / max |B_jj| of every leg; 1 for struts.
     pub serial: Vec<Least>,

@@ -2,10 +2,10 @@
 
 use super::clearance::{Measures, Place, Stretch, clearance, modulus};
 use super::profile::{self, ProfilePoint};
-use super::{Asked, EFFORT, Joined, Obstacle, PathCheck, PathError, PathOptions, is_limited, join};
+use super::{Asked, EFFORT, Joined, Obstacle, PathCheck, PathError, PathOptions, join};
 use crate::Kinematics;
+use crate::constraints::{Constraint, is_limited};
 use crate::follow::{BadInput, Follower, Refusal, Survey};
-use crate::modal::Constraint;
 use crate::path::curve::Curve;
 use aspecta_robot::Robot;
 use aspecta_robot::num::Interval;
@@ -214,7 +214,7 @@ impl<'a> Walk<'a> {
     fn demands(&self, asked: Asked, survey: &Survey) -> Vec<(Constraint, Interval)> {
         let margins = if asked == Asked::Margin { self.options.margins } else { Default::default() };
         if asked == Asked::Limit {
-            return survey.limits.iter().map(|&(j, k, margin)| (Constraint::Limit(j, k), margin)).collect();
+            return survey.limits.clone();
         }
         let signed =
             |x: Interval, sign: f64, margin: f64| x * Interval::point(sign) - Interval::point(margin);

@@ -16,13 +16,10 @@ pub use joints::check_joints;
 pub use profile::ProfilePoint;
 
 use crate::Kinematics;
-use crate::demand::{Demand, Margins};
-use crate::modal::Constraint;
+use crate::constraints::{self, Constraint, Demand, Kind, Margins, is_limited};
 use crate::path::curve::{Along, Curve, along};
-use crate::path::named;
 use crate::path::units;
-use aspecta_robot::Robot;
-use aspecta_robot::WorkingMode;
+use aspecta_robot::{Robot, WorkingMode};
 use clearance::{PoseStretch, clearance};
 use serde::Serialize;
 
@@ -127,7 +124,7 @@ pub struct Obstacle {
     /// Pose at the middle of the stretch; of joint vectors, at its start.
     pub pose: Vec<f64>,
     /// What fails there; in JSON `{"kind": "det A"}`, `{"kind": "reach", "leg"}` or `{"kind": "limit", "leg", "limit"}`, counted from 1.
-    #[serde(serialize_with = "named::constraint")]
+    #[serde(serialize_with = "constraints::constraint")]
     pub constraint: Constraint,
     /// Whether the failure is proved (else undecided).
     pub proved: bool,
@@ -136,11 +133,11 @@ pub struct Obstacle {
 impl Obstacle {
     /// Whether what fails is what was asked, and not that nobody can tell beyond a singularity.
     fn is_of_its_own(&self, margins: &Margins) -> bool {
-        match (self.asked, self.constraint) {
-            (Asked::Regular, _) | (Asked::Limit, Constraint::Limit(..)) => true,
-            (Asked::Margin, Constraint::Det) => margins.parallel > 0.0,
-            (Asked::Margin, Constraint::Reach(_)) => margins.serial > 0.0,
-            _ => false,
+        match (self.asked, self.constraint.kind()) {
+            (Asked::Regular, _) | (Asked::Limit, Kind::Limit) => true,
+            (Asked::Margin, Kind::Parallel) => margins.parallel > 0.0,
+            (Asked::Margin, Kind::Serial(_)) => margins.serial > 0.0,
+            (Asked::Margin, Kind::Limit) | (Asked::Limit, Kind::Parallel | Kind::Serial(_)) => false,
         }
     }
 }
@@ -181,18 +178,16 @@ pub fn check_poses(
     options: &PathOptions,
 ) -> Result<PathCheck, PathError> {
     check_input(robot, poses, mode, options)?;
-    let unlimited = without_limits(robot);
-    let sign = sign_at(&unlimited, mode, &poses[0]).ok_or(PathError::StartSingular)?;
+    let sign = sign_at(robot, mode, &poses[0]).ok_or(PathError::StartSingular)?;
     let PathOptions { joined, margins } = *options;
     let curves = join::join(poses, &units(robot)[..robot.dof()], joined);
-    let class = Demand::class(mode, sign);
+    let regular = Demand { limits: false, ..Demand::class(mode, sign) };
     let effort = if joined == Joined::None { 1 } else { EFFORT };
-    let found = |robot: &Robot, margins: Margins, asked: Asked| {
-        first_obstacle(robot, &Demand { margins, ..class }, &curves, effort, asked)
-    };
-    let singular = found(&unlimited, Margins::default(), Asked::Regular);
-    let near = margins.are_any().then(|| found(&unlimited, margins, Asked::Margin)).flatten();
-    let limit = is_limited(robot).then(|| found(robot, Margins::default(), Asked::Limit)).flatten();
+    let found = |demand: Demand, asked: Asked| first_obstacle(robot, &demand, &curves, effort, asked);
+    let singular = found(regular, Asked::Regular);
+    let near = margins.are_any().then(|| found(Demand { margins, ..regular }, Asked::Margin)).flatten();
+    let limits = Demand { limits: true, ..regular };
+    let limit = is_limited(robot).then(|| found(limits, Asked::Limit)).flatten();
 
     let walked = singular.as_ref().map_or(curves.len(), |o| o.segment);
     let until = |k: usize| match &singular {
@@ -240,9 +235,12 @@ fn check_input(
     }
 }
 
-/// The proved sign of det A at a pose inside the mode.
+/// The proved sign of det A at a pose inside the mode, whatever the limits.
 fn sign_at(robot: &Robot, mode: WorkingMode, pose: &[f64]) -> Option<i8> {
-    [1, -1].into_iter().find(|&sign| Along::is_inside(robot, &Demand::class(mode, sign), [pose, pose], 1))
+    [1, -1].into_iter().find(|&sign| {
+        let regular = Demand { limits: false, ..Demand::class(mode, sign) };
+        Along::is_inside(robot, &regular, [pose, pose], 1)
+    })
 }
 
 /// The first obstacle to a demand.
@@ -262,14 +260,4 @@ fn first_obstacle(
         let pose = curve.at(0.5 * (from + to))[..robot.dof()].to_vec();
         Some(Obstacle { asked, segment: k + 1, t: (from, to), pose, constraint, proved })
     })
-}
-
-fn is_limited(robot: &Robot) -> bool {
-    robot.legs.iter().any(|leg| !leg.limits.is_empty())
-}
-
-fn without_limits(robot: &Robot) -> Robot {
-    let mut unlimited = robot.clone();
-    unlimited.legs.iter_mut().for_each(|leg| leg.limits.clear());
-    unlimited
 }

@@ -1,8 +1,9 @@
 //! The boundary's mesh with the direct solutions at its vertices, and how they pair along its edges.
 
-use super::{APART, Characteristic, CharacteristicVertex, GivenUp, SAME_JOINTS, is_driven_constraint};
+use super::{APART, Characteristic, CharacteristicVertex, GivenUp, SAME_JOINTS};
 use crate::aspect::Analysis;
-use crate::domain::boundary::{Boundary, BoundaryVertex, Face, Simplex, onto};
+use crate::domain::boundary::{Boundary, BoundaryVertex, Simplex, onto};
+use crate::domain::face::Face;
 use crate::domain::field::Field;
 use arrayvec::ArrayVec;
 use aspecta_kinematics::Kinematics;
@@ -89,7 +90,7 @@ impl<'a, const D: usize, const N: usize> Net<'a, D, N> {
 
     /// Whether a face is a limit of a driven joint.
     pub fn is_driven_limit(&self, face: Face) -> bool {
-        matches!(face, Face::Of(constraint) if is_driven_constraint(self.field.robot, constraint))
+        matches!(face, Face::Of(constraint) if constraint.is_of_drives(self.field.robot))
     }
 
     fn station(&self, vertex: &BoundaryVertex) -> Station<N> {

@@ -11,7 +11,8 @@ mod track;
 
 pub(super) use beyond::Beyond;
 
-use super::boundary::{Face, Simplex, orders};
+use super::boundary::{Simplex, orders};
+use super::face::Face;
 use super::grid::Pose;
 use super::labels::{Labels, OUTSIDE};
 use super::mesh::Mesh;
@@ -19,7 +20,7 @@ use super::result::Domains;
 use super::sheet::Sheet;
 use crate::aspect::Analysis;
 use arrayvec::ArrayVec;
-use aspecta_kinematics::modal::Constraint;
+use aspecta_kinematics::constraints::Constraint;
 use aspecta_robot::work;
 use std::collections::BTreeMap;
 

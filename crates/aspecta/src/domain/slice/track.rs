@@ -1,12 +1,12 @@
 //! Following another pose of a class while X moves on a slice.
 
-use crate::domain::boundary::Face;
 use crate::domain::characteristic::SAME_JOINTS;
+use crate::domain::face::Face;
 use crate::domain::field::Field;
 use crate::domain::grid::Pose;
 use crate::domain::sheet::Sheet;
+use aspecta_kinematics::constraints::Constraint;
 use aspecta_kinematics::for_platform;
-use aspecta_kinematics::modal::Constraint;
 
 /// How often the first step is halved before a solution counts as lost: where it is lost is known to 2^−[`HALVINGS`] of the segment.
 const HALVINGS: i32 = 20;

@@ -6,7 +6,7 @@ use super::territory::Territory;
 use super::{Effort, End, ExploreError, classes_of, roaming};
 use crate::aspect::DetSign;
 use crate::paving::Control;
-use aspecta_kinematics::demand::Demand;
+use aspecta_kinematics::constraints::Demand;
 use aspecta_kinematics::{DirectSolutions, Solution, WorkingMode};
 use aspecta_robot::num::padded;
 use aspecta_robot::work::Stopwatch;

@@ -171,7 +171,7 @@ mod tests {
     use super::*;
     use crate::motion::explore::territory::roaming_window;
     use aspecta_kinematics::Kinematics;
-    use aspecta_kinematics::demand::Demand;
+    use aspecta_kinematics::constraints::Demand;
     use aspecta_robot::catalogue;
     use aspecta_robot::num::padded;
 

@@ -33,7 +33,7 @@ pub use plan::{NoWay, plan};
 
 use crate::aspect::DetSign;
 use crate::paving::Control;
-use aspecta_kinematics::demand::Demand;
+use aspecta_kinematics::constraints::Demand;
 use aspecta_robot::WorkingMode;
 use aspecta_robot::work::Stopwatch;
 use aspecta_robot::{Platform, Robot, Unbounded, Window};
@@ -154,7 +154,7 @@ pub struct Component {
     pub samples: usize,
     /// That of them with the greatest |det Â|.
     pub representative: Vec<f64>,
-    /// Its |det Â| ([`Margins`](aspecta_kinematics::demand::Margins)). Numerical.
+    /// Its |det Â| ([`Margins`](aspecta_kinematics::constraints::Margins)). Numerical.
     pub clearance: f64,
 }
 

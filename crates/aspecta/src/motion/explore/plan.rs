@@ -10,7 +10,7 @@ use crate::motion::plan::refusal::common_sign;
 use crate::motion::plan::shorten::improve;
 use crate::motion::plan::{FINAL, Plan, PlanOptions, Refusal};
 use crate::paving::Control;
-use aspecta_kinematics::demand::Demand;
+use aspecta_kinematics::constraints::Demand;
 use aspecta_robot::Robot;
 use aspecta_robot::WorkingMode;
 use aspecta_robot::num::padded;

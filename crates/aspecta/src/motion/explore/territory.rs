@@ -3,7 +3,8 @@
 use super::body::{Body, Pose, beside};
 use crate::motion::plan::Proof;
 use crate::motion::plan::cost::Cost;
-use aspecta_kinematics::demand::{Demand, demands};
+use aspecta_kinematics::constraints::{Constraints, Demand};
+use aspecta_kinematics::modal::closures;
 use aspecta_kinematics::placement::Placement;
 use aspecta_robot::num::{Random, padded};
 use aspecta_robot::{Robot, Unbounded, Window};
@@ -67,7 +68,8 @@ impl<'a> Territory<'a> {
     pub fn seems_to_hold(&self, pose: &Pose) -> bool {
         let placement = Placement::<f64, 3>::at(self.proof.robot.platform, pose);
         let mut inside = self.proof.window.holds(pose);
-        demands::<f64, 3, 6>(self.proof.robot, &placement, self.proof.demand, |_, value| {
+        let legs = closures::<f64, 3, 6>(self.proof.robot, &placement);
+        Constraints::new(self.proof.robot, &placement, &legs).visit(self.proof.demand, |_, value| {
             inside &= value > 0.0;
             inside
         });

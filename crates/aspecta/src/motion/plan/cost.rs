@@ -1,7 +1,7 @@
 //! What a path costs: its length, the dearer the nearer it comes to a singularity. Numerical: it decides which of the sound paths is
 //! taken, never whether a path is sound.
 
-use aspecta_kinematics::demand::{Demand, Margins, measures};
+use aspecta_kinematics::constraints::{Demand, Margins, measures};
 use aspecta_kinematics::for_platform;
 use aspecta_kinematics::placement::Placement;
 use aspecta_robot::{Platform, Robot, Window};

@@ -16,11 +16,10 @@ pub(super) mod shorten;
 pub use refusal::{End, Refusal};
 
 use crate::aspect::{Analysis, DetSign};
-use aspecta_kinematics::demand::{Demand, Margins};
+use aspecta_kinematics::constraints::{Demand, Margins};
 use aspecta_kinematics::path::curve::Along;
-use aspecta_robot::WorkingMode;
 use aspecta_robot::num::padded;
-use aspecta_robot::{Robot, Window};
+use aspecta_robot::{Robot, Window, WorkingMode};
 use cost::Cost;
 use roadmap::Roadmap;
 use serde::Serialize;

@@ -1,8 +1,7 @@
 //! Why there is no plan.
 
 use crate::aspect::{Analysis, DetSign};
-use aspecta_kinematics::demand::{Demand, Margins};
-use aspecta_kinematics::modal::Constraint;
+use aspecta_kinematics::constraints::{Demand, Kind, Margins};
 use aspecta_kinematics::path::curve::{Along, Curve, along};
 use aspecta_kinematics::{KinematicsError, WorkingMode, check_pose};
 use aspecta_robot::num::count;
@@ -51,17 +50,13 @@ pub enum Refusal {
         /// The leg, from 1.
         leg: usize,
     },
-    /// A joint limit forbids it (proved).
-    #[error("the {end} is beyond the {joint} limit of leg {leg}: proved")]
+    /// A limit of the machine forbids it (proved).
+    #[error("the {end} is beyond the {limit}: proved")]
     BeyondLimit {
         /// Which end.
         end: End,
-        /// The leg, from 1.
-        leg: usize,
-        /// Its limit, from 1,
-        limit: usize,
-        /// and the joint that it limits.
-        joint: &'static str,
+        /// The limit's name.
+        limit: String,
     },
     /// On the boundary of an aspect, or too near to it to tell.
     #[error("the {0} is singular or on a joint limit, or too near to tell which side it is on")]
@@ -183,16 +178,12 @@ pub(in crate::motion) fn sign_at(
     for sign in [DetSign::Positive, DetSign::Negative] {
         match at(sign) {
             Along::Inside => return Ok(sign),
-            Along::Outside { constraint: Constraint::Reach(leg), .. } => {
-                return Err(Refusal::OutOfReach { end, leg: leg + 1 });
-            }
-            Along::Outside { constraint: Constraint::Limit(leg, limit), .. } => {
-                let joint = robot.legs[leg].limits[limit].joint();
-                return Err(Refusal::BeyondLimit { end, leg: leg + 1, limit: limit + 1, joint });
-            }
-            Along::Outside { constraint: Constraint::Det, .. }
-            | Along::Crossed { .. }
-            | Along::Undecided { .. } => {}
+            Along::Outside { constraint, .. } => match constraint.kind() {
+                Kind::Serial(leg) => return Err(Refusal::OutOfReach { end, leg: leg + 1 }),
+                Kind::Limit => return Err(Refusal::BeyondLimit { end, limit: constraint.named(robot) }),
+                Kind::Parallel => {}
+            },
+            Along::Crossed { .. } | Along::Undecided { .. } => {}
         }
     }
     Err(Refusal::OnBoundary(end))

@@ -5,7 +5,7 @@ use super::cost::Cost;
 use crate::aspect::Analysis;
 use crate::motion::search::cheapest_way;
 use crate::paving::{ClassSet, Mark, Node};
-use aspecta_kinematics::demand::Margins;
+use aspecta_kinematics::constraints::Margins;
 use aspecta_robot::num::padded;
 use aspecta_robot::work;
 use std::collections::{HashMap, HashSet};

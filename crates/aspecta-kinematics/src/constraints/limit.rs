@@ -1,6 +1,7 @@
 //! Joint limits as functions that are positive strictly inside.
 
-use super::placement::{Placement, into_frame};
+use crate::modal::LegClosure;
+use crate::placement::{Placement, into_frame};
 use aspecta_robot::legs::{Closure, Drive};
 use aspecta_robot::num::{Interval, Scalar, dot, dot_constant, each};
 use aspecta_robot::{Leg, Limit};
@@ -10,35 +11,24 @@ pub struct LegAt<'a, T, const D: usize> {
     /// The leg.
     pub leg: &'a Leg,
     /// d = C − A in the leg's frame.
-    pub span: [T; D],
+    pub span: &'a [T; D],
     /// The leg equation with q eliminated.
-    pub closure: Closure<T, D>,
+    pub closure: &'a Closure<T, D>,
     /// (cos q, sin q), where the leg's own coordinates are used.
     pub crank: Option<(T, T)>,
 }
 
 impl<'a, T: Scalar, const D: usize> LegAt<'a, T, D> {
-    /// The same in another scalar.
-    pub fn map<U: Scalar>(&self, to: impl Fn(T) -> U) -> LegAt<'a, U, D> {
-        let vector = |v: &[T; D]| each!(|k| to(v[k]));
-        let Closure { reach, weight, fixed, swing } = &self.closure;
-        LegAt {
-            leg: self.leg,
-            span: vector(&self.span),
-            closure: Closure {
-                reach: to(*reach),
-                weight: to(*weight),
-                fixed: vector(fixed),
-                swing: vector(swing),
-            },
-            crank: self.crank.map(|(cos, sin)| (to(cos), to(sin))),
-        }
+    /// The leg where it closes.
+    pub fn of(leg: &'a Leg, at: &'a LegClosure<T, D>) -> Self {
+        let crank = at.fold.as_ref().map(|f| (f.cos, f.sin));
+        Self { leg, span: &at.span, closure: &at.closure, crank }
     }
 
     fn drive(&self, sh: T) -> Drive<T> {
         match self.crank {
             Some((cos, sin)) => Drive::Angle { cos, sin, norm: T::constant(Interval::point(1.0)) },
-            None => self.leg.actuator.drive(&self.span, &self.closure, sh),
+            None => self.leg.actuator.drive(self.span, self.closure, sh),
         }
     }
 }
@@ -58,7 +48,7 @@ pub fn margin<T: Scalar, const D: usize>(
             }
             Drive::Length(_) => T::constant(Interval::ENTIRE),
         },
-        Limit::ActuatorLength { min, max } => at.leg.actuator.length_margin(&at.span, sh, *min, *max),
+        Limit::ActuatorLength { min, max } => at.leg.actuator.length_margin(at.span, sh, *min, *max),
         Limit::Elbow { middle, half_cos } => {
             let (bend, both) = bend(at);
             bend.scale(middle.0) - sh.scale(middle.1) - T::constant(both * *half_cos)
@@ -95,7 +85,7 @@ pub fn unit<T: Scalar, const D: usize>(limit: &Limit, at: &LegAt<'_, T, D>, sh: 
 
 /// (2LM cos ψ, 2LM) with ψ the angle at B; it may be anything if there is none.
 fn bend<T: Scalar, const D: usize>(at: &LegAt<'_, T, D>) -> (T, Interval) {
-    at.leg.actuator.bend(&at.span).unwrap_or((T::constant(Interval::ENTIRE), Interval::point(1.0)))
+    at.leg.actuator.bend(at.span).unwrap_or((T::constant(Interval::ENTIRE), Interval::point(1.0)))
 }
 
 /// The rod's direction in the leg's frame, times [`rod_length`].
@@ -105,5 +95,5 @@ fn rod_direction<T: Scalar, const D: usize>(at: &LegAt<'_, T, D>, sh: T) -> [T; 
 
 /// ‖weight · ∂f/∂d‖ = 2 M weight (2 q for a strut).
 pub(super) fn rod_length<T: Scalar, const D: usize>(at: &LegAt<'_, T, D>) -> T {
-    at.leg.actuator.row_length(&at.closure)
+    at.leg.actuator.row_length(at.closure)
 }

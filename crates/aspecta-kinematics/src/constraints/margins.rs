@@ -1,9 +1,10 @@
-//! What is asked of a configuration: to lie in an aspect, and if wanted well away from its singularities.
+//! How far a configuration is from the singularities.
 
-use super::WorkingMode;
-use super::limits::{margin, rod_length};
-use super::modal::{Constraint, LegClosure, ModalRows, closures};
-use super::placement::Placement;
+use super::LegAt;
+use super::limit::rod_length;
+use crate::modal::{LegClosure, ModalRows, closures};
+use crate::placement::Placement;
+use aspecta_robot::WorkingMode;
 use aspecta_robot::num::{Interval, Scalar, dot, each};
 use aspecta_robot::{Platform, Robot};
 use serde::{Deserialize, Serialize};
@@ -14,7 +15,7 @@ use serde::{Deserialize, Serialize};
 /// - *parallel*: |det Â| ≥ `parallel`, Â being A with every row divided by the force along its rod and moments by the
 ///   [characteristic length](Robot::characteristic_length) (for a platform that only turns, every row by its norm). 0 at a parallel
 ///   singularity, at most 1 for platforms that do not turn.
-/// - *serial*: |B_jj| / max |B_jj| ≥ `serial` for every leg j: [`super::State::serial_measures`]. 0 at a serial singularity, at most 1.
+/// - *serial*: |B_jj| / max |B_jj| ≥ `serial` for every leg j: [`State::serial_measures`](crate::State::serial_measures). 0 at a serial singularity, at most 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Margins {
     /// Of |det Â|.
@@ -27,87 +28,6 @@ impl Margins {
     /// Whether they ask for anything.
     pub fn are_any(&self) -> bool {
         *self != Self::default()
-    }
-}
-
-/// What is asked of the configurations of a path.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Demand {
-    /// The working mode.
-    pub mode: WorkingMode,
-    /// The sign of det A: +1 or −1.
-    pub sign: i8,
-    /// What they stay away from singularities.
-    pub margins: Margins,
-    /// A leg (from 0) that may come to its serial singularity: all else is asked of both its postures, wherever they exist and where they
-    /// meet.
-    pub crossing: Option<usize>,
-}
-
-impl Demand {
-    /// To lie in S_{s,σ}, however near its boundary.
-    pub fn class(mode: WorkingMode, sign: i8) -> Self {
-        Self { mode, sign, margins: Margins::default(), crossing: None }
-    }
-}
-
-/// Visits, at one pose, functions that are all positive there if and only if the demand is met: with no margins and no crossing they are
-/// those whose common positivity region is S_{s,σ} — H_j, c_k and σ det A (times the weights). `visit` returns whether to go on.
-pub fn demands<T: Scalar, const D: usize, const N: usize>(
-    robot: &Robot,
-    placement: &Placement<T, D>,
-    demand: &Demand,
-    visit: impl FnMut(Constraint, T) -> bool,
-) {
-    demands_of(robot, placement, &closures::<T, D, N>(robot, placement), demand, visit);
-}
-
-/// [`demands`] with the legs as a chart has them; where it is a leg's own, s B_jj stands for H_j.
-pub fn demands_of<T: Scalar, const D: usize, const N: usize>(
-    robot: &Robot,
-    placement: &Placement<T, D>,
-    legs: &[LegClosure<T, D>; N],
-    demand: &Demand,
-    mut visit: impl FnMut(Constraint, T) -> bool,
-) {
-    for (j, at) in legs.iter().enumerate() {
-        if let Some(fold) = &at.fold {
-            let b = if demand.mode.sign(j) > 0 { fold.b } else { -fold.b };
-            if !visit(Constraint::Reach(j), b) {
-                return;
-            }
-        } else if robot.legs[j].actuator.postures() == 2 {
-            let reach = at.closure.reach;
-            let least = if demand.crossing == Some(j) { 0.0 } else { demand.margins.serial };
-            let reach = if least > 0.0 { reach - T::constant(least_reach(robot, j, least)) } else { reach };
-            if !visit(Constraint::Reach(j), reach) {
-                return;
-            }
-        }
-    }
-    let heights: [[T; 2]; N] = std::array::from_fn(|j| legs[j].heights());
-    let rows = ModalRows::<T, N>::new(robot, legs, &each!(|j| heights[j][0]));
-    let other = demand.crossing.map(|j| demand.mode.with_other_posture(j));
-    for mode in std::iter::once(demand.mode).chain(other) {
-        for (j, at) in legs.iter().enumerate() {
-            let leg = &robot.legs[j];
-            let sh = heights[j][usize::from(mode.sign(j) < 0)];
-            let at = at.limited(leg);
-            for (k, limit) in leg.limits.iter().enumerate() {
-                if !visit(Constraint::Limit(j, k), margin(limit, &at, sh, placement)) {
-                    return;
-                }
-            }
-        }
-        let det = rows.det(mode);
-        let mut det = if demand.sign > 0 { det } else { -det };
-        if demand.margins.parallel > 0.0 {
-            let unit = unit_of_det(robot, legs, &rows, mode);
-            det = det - unit.scale(Interval::point(demand.margins.parallel));
-        }
-        if !visit(Constraint::Det, det) {
-            return;
-        }
     }
 }
 
@@ -130,13 +50,13 @@ pub fn measures<T: Scalar, const D: usize, const N: usize>(
 }
 
 /// The H_j at which |B_jj| / max |B_jj| is `least`.
-fn least_reach(robot: &Robot, j: usize, least: f64) -> Interval {
+pub(super) fn least_reach(robot: &Robot, j: usize, least: f64) -> Interval {
     let most = robot.legs[j].actuator.greatest_reach().unwrap_or(Interval::point(0.0));
     most * Interval::point(least).square()
 }
 
 /// What the weighted det A is a multiple of: divided by it, it is det Â.
-fn unit_of_det<T: Scalar, const D: usize, const N: usize>(
+pub(super) fn unit_of_det<T: Scalar, const D: usize, const N: usize>(
     robot: &Robot,
     legs: &[LegClosure<T, D>; N],
     rows: &ModalRows<T, N>,
@@ -148,7 +68,7 @@ fn unit_of_det<T: Scalar, const D: usize, const N: usize>(
             let row = rows.row(j, mode.sign(j));
             dot(&row, &row).sqrt()
         } else {
-            rod_length(&at.limited(&robot.legs[j]))
+            rod_length(&LegAt::of(&robot.legs[j], at))
         };
         unit = unit * force;
     }

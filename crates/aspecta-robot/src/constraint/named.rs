@@ -1,6 +1,6 @@
 //! Constraints as JSON names them, legs and limits counted from 1.
 
-use crate::modal::Constraint;
+use super::Constraint;
 use serde::{Serialize, Serializer};
 
 #[derive(Serialize)]

@@ -1,0 +1,83 @@
+//! The limits of the machine at one configuration.
+
+use super::{Constraint, LegAt, margin, unit};
+use crate::modal::{LegClosure, closures};
+use crate::placement::Placement;
+use aspecta_robot::Robot;
+use aspecta_robot::WorkingMode;
+use aspecta_robot::num::{Interval, Scalar};
+
+/// A configuration, or a box of them: the pose and the postures of the legs.
+#[derive(Clone, Copy)]
+pub struct Configuration<'a, T, const D: usize, const N: usize> {
+    /// The robot.
+    pub robot: &'a Robot,
+    /// Where the platform is.
+    pub placement: &'a Placement<T, D>,
+    /// The legs there.
+    pub legs: &'a [LegClosure<T, D>; N],
+    /// s h of every leg in both postures ([`LegClosure::heights`]).
+    pub heights: &'a [[T; 2]; N],
+    /// The postures.
+    pub mode: WorkingMode,
+}
+
+impl<'a, T: Scalar, const D: usize, const N: usize> Configuration<'a, T, D, N> {
+    fn leg(&self, j: usize) -> LegAt<'a, T, D> {
+        LegAt::of(&self.robot.legs[j], &self.legs[j])
+    }
+
+    /// s h of leg j.
+    fn height(&self, j: usize) -> T {
+        self.heights[j][usize::from(self.mode.sign(j) < 0)]
+    }
+
+    /// How far inside a limit it is; only the sign has a meaning. Of singularities, which need more than this, nothing is said.
+    pub fn margin(&self, constraint: Constraint) -> T {
+        match constraint {
+            Constraint::Limit(j, k) => {
+                margin(&self.robot.legs[j].limits[k], &self.leg(j), self.height(j), self.placement)
+            }
+            Constraint::Reach(_) | Constraint::Det => T::constant(Interval::ENTIRE),
+        }
+    }
+
+    /// What [`Self::margin`] is a multiple of: divided by it, it is one and the same function of the configuration, whatever coordinates it
+    /// was computed in.
+    pub fn unit(&self, constraint: Constraint) -> T {
+        match constraint {
+            Constraint::Limit(j, k) => unit(&self.robot.legs[j].limits[k], &self.leg(j), self.height(j)),
+            Constraint::Reach(_) | Constraint::Det => T::constant(Interval::ENTIRE),
+        }
+    }
+
+    /// The limits and their margins.
+    pub fn limits(&self) -> impl Iterator<Item = (Constraint, T)> {
+        let limits = Constraint::of(self.robot).filter(|constraint| constraint.is_limit());
+        limits.map(|constraint| (constraint, self.margin(constraint)))
+    }
+}
+
+/// Whether anything but singularities bounds the aspects of a robot.
+pub fn is_limited(robot: &Robot) -> bool {
+    Constraint::of(robot).any(Constraint::is_limit)
+}
+
+/// Whether all limits are strictly kept at a pose, for every mode asked about.
+pub(crate) fn within_limits<const D: usize, const N: usize>(
+    robot: &Robot,
+    pose: &[f64],
+) -> impl Fn(WorkingMode) -> bool {
+    let there = is_limited(robot).then(|| {
+        let placement = Placement::<f64, D>::at(robot.platform, pose);
+        let legs = closures::<f64, D, N>(robot, &placement);
+        let heights: [[f64; 2]; N] = std::array::from_fn(|j| legs[j].heights());
+        (placement, legs, heights)
+    });
+    move |mode| {
+        there.as_ref().is_none_or(|(placement, legs, heights)| {
+            let at = Configuration { robot, placement, legs, heights, mode };
+            at.limits().all(|(_, margin)| margin > 0.0)
+        })
+    }
+}

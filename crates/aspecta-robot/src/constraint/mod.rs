@@ -1,0 +1,104 @@
+//! The functions that bound the aspects of a robot, as a list. How they are evaluated is not said here: the checker does it in its own way.
+
+mod named;
+mod scale;
+
+pub use named::{constraint, if_any};
+pub use scale::Scale;
+
+use crate::{LegSet, Limit, Robot};
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// One of the functions that bound an aspect. Legs, and the limits of a leg, count from 0 here and from 1 where they are printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Constraint {
+    /// H_j of leg j.
+    Reach(usize),
+    /// Limit k of leg j.
+    Limit(usize, usize),
+    /// det A.
+    Det,
+}
+
+/// What a constraint keeps a robot from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A serial singularity of this leg.
+    Serial(usize),
+    /// A parallel singularity.
+    Parallel,
+    /// What the machine cannot do: its joint limits.
+    Limit,
+}
+
+impl Constraint {
+    /// All constraints of a robot, leg by leg; first those of the pose alone. det A, which needs all legs, is the last.
+    pub fn of(robot: &Robot) -> impl Iterator<Item = Self> {
+        let of_leg = |(j, leg): (usize, &crate::Leg)| {
+            let reach = (leg.actuator.postures() == 2).then_some(Self::Reach(j));
+            reach.into_iter().chain((0..leg.limits.len()).map(move |k| Self::Limit(j, k)))
+        };
+        robot.legs.iter().enumerate().flat_map(of_leg).chain([Self::Det])
+    }
+
+    /// What it keeps the robot from.
+    pub fn kind(self) -> Kind {
+        match self {
+            Self::Reach(j) => Kind::Serial(j),
+            Self::Limit(..) => Kind::Limit,
+            Self::Det => Kind::Parallel,
+        }
+    }
+
+    /// Whether it is a limit of the machine, and no singularity.
+    pub fn is_limit(self) -> bool {
+        self.kind() == Kind::Limit
+    }
+
+    /// The legs on whose s h it depends, besides the pose.
+    pub fn postures(self) -> LegSet {
+        match self {
+            Self::Reach(_) => LegSet::NONE,
+            Self::Limit(j, _) => LegSet::of(j),
+            Self::Det => LegSet::ALL,
+        }
+    }
+
+    /// The leg that it is about, if it is about one.
+    pub fn leg(self) -> Option<usize> {
+        match self {
+            Self::Reach(j) | Self::Limit(j, _) => Some(j),
+            Self::Det => None,
+        }
+    }
+
+    /// Whether it says something of the driven joints alone, wherever the platform is.
+    pub fn is_of_drives(self, robot: &Robot) -> bool {
+        match self {
+            Self::Limit(j, k) => {
+                matches!(robot.legs[j].limits[k], Limit::ActuatorAngle { .. } | Limit::ActuatorLength { .. })
+            }
+            Self::Reach(_) | Self::Det => false,
+        }
+    }
+
+    /// Its name, with the joint that it limits.
+    pub fn named(self, robot: &Robot) -> String {
+        match self {
+            Self::Limit(j, k) => format!("{} limit of leg {}", robot.legs[j].limits[k].joint(), j + 1),
+            Self::Reach(_) | Self::Det => self.to_string(),
+        }
+    }
+}
+
+/// Its name where the robot is not at hand: `det A`, `H_1`, `joint limit 1 of leg 2`.
+impl fmt::Display for Constraint {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Reach(j) => write!(f, "H_{}", j + 1),
+            Self::Limit(j, k) => write!(f, "joint limit {} of leg {}", k + 1, j + 1),
+            Self::Det => f.write_str("det A"),
+        }
+    }
+}

@@ -1,0 +1,143 @@
+//! The robot over eight boxes, with the h of every leg in a given range: one way to look at them.
+
+use super::MOST;
+use super::climb::Growth;
+use super::form::{Field, Form};
+use super::frame::Frame;
+use super::leg::LegPart;
+use super::limit::LimitPart;
+use super::view::View;
+use arrayvec::ArrayVec;
+use aspecta_kinematics::constraints::{Constraint, Kind};
+use aspecta_robot::WorkingMode;
+use aspecta_robot::num::{Interval, Mask, Pack, Scalar};
+use std::cell::LazyCell;
+
+/// The legs, and all that bounds the aspects but det A.
+pub(super) struct Way<'a, const D: usize, const N: usize, const M: usize> {
+    view: &'a View<'a, D, N, M>,
+    pub legs: [LegPart<N, M>; N],
+    /// In the order of [`Constraint::of`].
+    bounds: Vec<Bound<N, M>>,
+}
+
+/// What bounds the aspects of some modes.
+enum Bound<const N: usize, const M: usize> {
+    /// The reach of this leg, in every mode.
+    Reach(usize),
+    /// A limit, in the modes of one choice of postures.
+    Limit(Box<LimitPart<N, M>>),
+}
+
+impl<'a, const D: usize, const N: usize, const M: usize> Way<'a, D, N, M> {
+    /// With the whole range of h, and these legs as singular in each box.
+    pub(super) fn new(view: &'a View<'a, D, N, M>, singular: &[Mask; N]) -> Self {
+        let legs = std::array::from_fn(|j| LegPart::new(view, j, view.heights[j], singular[j]));
+        let bounds = bounds(view, &legs);
+        Self { view, legs, bounds }
+    }
+
+    /// Changes the ranges of h.
+    pub(super) fn set(&mut self, heights: &[Pack; N]) {
+        let changed: [bool; N] = std::array::from_fn(|j| self.legs[j].height != heights[j]);
+        for j in (0..N).filter(|&j| changed[j]) {
+            self.legs[j] = LegPart::new(self.view, j, heights[j], self.legs[j].singular);
+        }
+        let depends = |part: &LimitPart<N, M>| part.own.iter().any(|&(j, _)| changed[j]);
+        let (view, legs) = (self.view, &self.legs);
+        let heights = LazyCell::new(|| postures(view, legs));
+        for bound in &mut self.bounds {
+            if let Bound::Limit(part) = bound
+                && depends(part)
+            {
+                **part = part.with(view, &heights);
+            }
+        }
+    }
+
+    /// All constraints but det A, and the ends of the window, in one box.
+    pub(super) fn constraints(
+        &self,
+        frame: &Frame<N, M>,
+        mode: WorkingMode,
+        lane: usize,
+    ) -> ArrayVec<Growth<M>, MOST> {
+        let Self { view, legs, .. } = self;
+        let mut all = ArrayVec::new();
+        let mut add = |value: Interval, scale: f64, along| {
+            let _ = all.try_push(Growth { value: value / Interval::point(scale), along });
+        };
+        let sign = |j: usize| f64::from(mode.sign(j));
+        for bound in &self.bounds {
+            match bound {
+                &Bound::Reach(j) => {
+                    let reach = view.reach[j].value.lane(lane).meet(legs[j].height.lane(lane).square());
+                    let height = (reach / Interval::point(view.scale[Constraint::Reach(j)])).sqrt();
+                    add(height, 1.0, self.reach_along(frame, j, sign(j), lane));
+                }
+                Bound::Limit(part) if part.is_in(mode) => {
+                    let own: ArrayVec<_, N> =
+                        part.own.iter().map(|(j, own)| (*j, sign(*j), own.lane(lane))).collect();
+                    let along = frame.along(&part.field.gradient_in(lane), &own);
+                    add(part.field.value.lane(lane), view.scale[part.constraint], along);
+                }
+                Bound::Limit(_) => {}
+            }
+        }
+        let (lo, hi) = view.paving.bounds(view.boxes[lane]);
+        for (a, &k) in view.paving.axes.iter().enumerate() {
+            let (first, last) = view.paving.window.ranges[k];
+            let (cut_first, cut_last) = view.paving.window.cut[k];
+            let extent = Interval::new(lo[a], hi[a]);
+            for (cut, distance, sign) in [
+                (cut_first, extent - Interval::point(first), 1.0),
+                (cut_last, Interval::point(last) - extent, -1.0),
+            ] {
+                if cut {
+                    let gradient = std::array::from_fn(|b| Interval::point(if a == b { sign } else { 0.0 }));
+                    add(distance, last - first, frame.along(&gradient, &[]));
+                }
+            }
+        }
+        all
+    }
+
+    /// The derivatives of H_j, or of an increasing function of it.
+    fn reach_along(&self, frame: &Frame<N, M>, j: usize, sign: f64, lane: usize) -> [Interval; M] {
+        match &self.view.legs[j].fold {
+            Some(fold) => {
+                let gradient = Field::of(&fold.b).gradient_in(lane);
+                frame.along(&gradient.map(|g| g * Interval::point(sign)), &[])
+            }
+            None if frame.singular[j] => std::array::from_fn(|i| frame.climb[i][j]),
+            None => frame.along(&self.view.reach[j].gradient_in(lane), &[]),
+        }
+    }
+}
+
+/// All constraints but det A, which is of either sign: those who ask for it have it from [`Determinant`](super::determinant::Determinant).
+fn bounds<const D: usize, const N: usize, const M: usize>(
+    view: &View<'_, D, N, M>,
+    legs: &[LegPart<N, M>; N],
+) -> Vec<Bound<N, M>> {
+    let heights = LazyCell::new(|| postures(view, legs));
+    let of = |constraint: Constraint| -> ArrayVec<Bound<N, M>, MOST> {
+        match constraint.kind() {
+            Kind::Serial(j) => std::iter::once(Bound::Reach(j)).collect(),
+            Kind::Limit => {
+                let part = |mode| Bound::Limit(Box::new(LimitPart::new(view, &heights, constraint, mode)));
+                constraint.postures().choices(N).map(part).collect()
+            }
+            Kind::Parallel => ArrayVec::new(),
+        }
+    };
+    Constraint::of(view.robot).flat_map(of).collect()
+}
+
+/// s h of every leg in both postures.
+fn postures<const D: usize, const N: usize, const M: usize>(
+    view: &View<'_, D, N, M>,
+    legs: &[LegPart<N, M>; N],
+) -> [[Form<M>; 2]; N] {
+    std::array::from_fn(|j| view.postures(j, &legs[j]))
+}
