@@ -11,7 +11,7 @@ pub use step::{
     aspecta_dof, aspecta_inverse_last, aspecta_inverse_step, aspecta_last, aspecta_report, aspecta_step,
 };
 
-use aspecta::motion::follow::{Follower, InverseFollower};
+use aspecta_kinematics::follow::{Follower, InverseFollower};
 
 /// What a call came to.
 #[allow(non_camel_case_types)]

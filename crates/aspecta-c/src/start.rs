@@ -1,9 +1,9 @@
 //! Making and freeing handles.
 
 use crate::{aspecta_follower, aspecta_inverse};
-use aspecta::kinematics::WorkingMode;
-use aspecta::motion::follow::{Follower, InverseFollower};
-use aspecta::robot::{Robot, catalogue};
+use aspecta_robot::WorkingMode;
+use aspecta_kinematics::follow::{Follower, InverseFollower};
+use aspecta_robot::{Robot, catalogue};
 use std::ffi::{CStr, c_char};
 
 /// Starts at the pose that a joint vector means, at least roughly.
@@ -54,7 +54,7 @@ pub unsafe extern "C" fn aspecta_inverse_start(
     let started = || {
         let (name, pose, mode) =
             (name.ok_or(NO_ROBOT)?, pose.ok_or("pose is NULL")?, mode.ok_or("mode is NULL or not UTF-8")?);
-        let mode: WorkingMode = mode.parse().map_err(|e: aspecta::kinematics::NotAMode| e.to_string())?;
+        let mode: WorkingMode = mode.parse().map_err(|e: aspecta_robot::NotAMode| e.to_string())?;
         InverseFollower::new(&resolve(name)?, pose, mode).map_err(|e| e.to_string())
     };
     // SAFETY: as above.
