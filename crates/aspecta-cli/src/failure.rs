@@ -1,5 +1,7 @@
 //! How a command ends.
 
+pub mod advice;
+
 use aspecta::aspect::AnalysisError;
 use aspecta::certificate::CertificateError;
 use aspecta::domain::DomainError;
@@ -42,10 +44,10 @@ pub enum Failure {
     #[error(transparent)]
     Kinematics(#[from] KinematicsError),
     /// It cannot be analysed.
-    #[error(transparent)]
+    #[error("{error}{}", advice::on_analysis(.0), error = .0)]
     Analysis(#[from] AnalysisError),
     /// It cannot be explored.
-    #[error(transparent)]
+    #[error("{error}{}", advice::on_exploring(.0), error = .0)]
     Explore(#[from] ExploreError),
     /// Its cusps cannot be looked for.
     #[error(transparent)]
@@ -54,13 +56,13 @@ pub enum Failure {
     #[error(transparent)]
     Certificate(#[from] CertificateError),
     /// The path cannot be checked.
-    #[error(transparent)]
+    #[error("{error}{}", advice::on_path(.0), error = .0)]
     Path(#[from] PathError),
     /// The path cannot be timed.
     #[error(transparent)]
     Time(#[from] TimeError),
     /// Following cannot start.
-    #[error(transparent)]
+    #[error("{error}{}", advice::on_start(.0), error = .0)]
     Start(#[from] StartError),
     /// The directory of `--out` cannot be written to.
     #[error("--out {}: {error}", directory.display())]

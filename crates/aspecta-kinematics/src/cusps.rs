@@ -212,6 +212,24 @@ pub enum Doubt {
 ///
 /// # Errors
 /// [`CuspError`] for robots with six degrees of freedom, joints or values that do not fit, and unbounded workspaces.
+///
+/// # Examples
+/// ```
+/// use aspecta_kinematics::cusps::{Options, cusps};
+/// use aspecta_robot::catalogue;
+/// use aspecta_robot::work::Control;
+///
+/// // A platform that does not turn has none: its direct problem is quadratic.
+/// let robot = catalogue::find("five-bar").unwrap();
+/// let found = cusps(&robot, &Options::default(), &Control::unwatched())?;
+/// assert!(found.complete && found.cusps.is_empty());
+///
+/// // Of a 3-RPR one strut is held; a few boxes do not decide all of it.
+/// let robot = catalogue::find("3-rpr").unwrap();
+/// let options = Options { fix: vec![(0, 14.98)], boxes: Some(1000), ..Options::default() };
+/// assert!(!cusps(&robot, &options, &Control::unwatched())?.complete);
+/// # Ok::<(), aspecta_kinematics::cusps::CuspError>(())
+/// ```
 pub fn cusps(robot: &Robot, options: &Options, control: &Control<'_>) -> Result<Cusps, CuspError> {
     let modes = check(robot, options)?;
     let mut all = Cusps {

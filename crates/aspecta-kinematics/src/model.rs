@@ -17,18 +17,55 @@ pub trait Kinematics {
     ///
     /// # Errors
     /// [`KinematicsError`] if `pose` has the wrong length or is not finite.
+    ///
+    /// # Examples
+    /// ```
+    /// use aspecta_kinematics::Kinematics;
+    /// use aspecta_robot::catalogue;
+    ///
+    /// let robot = catalogue::find("five-bar").unwrap();
+    /// let solutions = robot.inverse(&[4.0, 7.0])?; // x, y
+    /// let modes: Vec<String> = solutions.iter().map(|s| s.mode.to_string()).collect();
+    /// assert_eq!(modes, ["++", "+-", "--", "-+"]);
+    /// assert!(solutions.iter().all(|s| s.certified && s.residual < 1e-12));
+    /// assert!(robot.inverse(&[40.0, 0.0])?.is_empty());
+    /// # Ok::<(), aspecta_kinematics::KinematicsError>(())
+    /// ```
     fn inverse(&self, pose: &[f64]) -> Result<Vec<Solution>, KinematicsError>;
 
     /// g_i(X) of (5): the joint vector of `pose` in `mode`, or `None` out of reach. Limits are not looked at.
     ///
     /// # Errors
     /// [`KinematicsError`] if `pose` has the wrong length or is not finite.
+    ///
+    /// # Examples
+    /// ```
+    /// use aspecta_kinematics::Kinematics;
+    /// use aspecta_robot::catalogue;
+    ///
+    /// let robot = catalogue::find("five-bar").unwrap();
+    /// let q = robot.inverse_in(&[4.0, 7.0], "+-".parse().unwrap())?.unwrap();
+    /// assert_eq!(q.len(), 2); // rad
+    /// assert!(robot.state(&[4.0, 7.0], &q)?.residual < 1e-12);
+    /// # Ok::<(), aspecta_kinematics::KinematicsError>(())
+    /// ```
     fn inverse_in(&self, pose: &[f64], mode: WorkingMode) -> Result<Option<Vec<f64>>, KinematicsError>;
 
     /// What each leg allows at `pose`.
     ///
     /// # Errors
     /// [`KinematicsError`] if `pose` has the wrong length or is not finite.
+    ///
+    /// # Examples
+    /// ```
+    /// use aspecta_kinematics::Kinematics;
+    /// use aspecta_robot::catalogue;
+    ///
+    /// let robot = catalogue::find("five-bar").unwrap();
+    /// let legs = robot.leg_solutions(&[4.0, 7.0])?;
+    /// assert!(legs[0].certified && legs[0].reach > 0.0); // leg 1 closes, away from its serial singularity
+    /// # Ok::<(), aspecta_kinematics::KinematicsError>(())
+    /// ```
     fn leg_solutions(&self, pose: &[f64]) -> Result<Vec<LegSolutions>, KinematicsError>;
 
     /// The legs that have no inverse solution at `pose` (proved by intervals), limits not looked at.
@@ -36,6 +73,18 @@ pub trait Kinematics {
     ///
     /// # Errors
     /// [`KinematicsError`] if `pose` has the wrong length or is not finite.
+    ///
+    /// # Examples
+    /// ```
+    /// use aspecta_kinematics::Kinematics;
+    /// use aspecta_robot::catalogue;
+    ///
+    /// let robot = catalogue::find("five-bar").unwrap();
+    /// let beyond = robot.out_of_reach(&[15.0, 0.0])?; // leg 1 is 13 long at most
+    /// assert_eq!(beyond[0].leg, 1);
+    /// assert!((beyond[0].gap - 2.0).abs() < 1e-12);
+    /// # Ok::<(), aspecta_kinematics::KinematicsError>(())
+    /// ```
     fn out_of_reach(&self, pose: &[f64]) -> Result<Vec<OutOfReach>, KinematicsError>;
 
     /// All real poses X with f(X, q) = 0: the direct solutions of q in every working mode. Solutions beyond joint
@@ -50,12 +99,37 @@ pub trait Kinematics {
     /// # Errors
     /// [`KinematicsError`] if `q` has the wrong length or is not finite, if a strut's length is not positive, or if the
     /// solutions are infinitely many.
+    ///
+    /// # Examples
+    /// ```
+    /// use aspecta_kinematics::Kinematics;
+    /// use aspecta_robot::catalogue;
+    ///
+    /// let robot = catalogue::find("five-bar").unwrap();
+    /// let q = robot.inverse(&[4.0, 7.0])?[0].q.clone();
+    /// let poses: Vec<Vec<f64>> = robot.direct(&q)?.into_iter().map(|s| s.pose).collect();
+    /// assert_eq!(poses.len(), 2); // two circles
+    /// assert!(poses.iter().any(|pose| (pose[0] - 4.0).abs() < 1e-9 && (pose[1] - 7.0).abs() < 1e-9));
+    /// # Ok::<(), aspecta_kinematics::KinematicsError>(())
+    /// ```
     fn direct(&self, q: &[f64]) -> Result<Vec<Solution>, KinematicsError>;
 
     /// [`Kinematics::direct`] with the proof that no solution is missing, where there is one.
     ///
     /// # Errors
     /// As [`Kinematics::direct`].
+    ///
+    /// # Examples
+    /// ```
+    /// use aspecta_kinematics::Kinematics;
+    /// use aspecta_robot::catalogue;
+    ///
+    /// // The struts of Innocenti & Parenti-Castelli: six poses.
+    /// let robot = catalogue::find("3-rpr").unwrap();
+    /// let found = robot.direct_certified(&[14.98, 15.38, 12.0])?;
+    /// assert_eq!((found.solutions.len(), found.complete), (6, true));
+    /// # Ok::<(), aspecta_kinematics::KinematicsError>(())
+    /// ```
     fn direct_certified(&self, q: &[f64]) -> Result<DirectSolutions, KinematicsError>;
 
     /// The poses of [`Kinematics::direct`] alone: no labels, no certificates, no allocation. For control loops.
@@ -68,6 +142,19 @@ pub trait Kinematics {
     ///
     /// # Errors
     /// [`KinematicsError`] if a vector has the wrong length or is not finite.
+    ///
+    /// # Examples
+    /// ```
+    /// use aspecta_kinematics::Kinematics;
+    /// use aspecta_robot::catalogue;
+    ///
+    /// let robot = catalogue::find("five-bar").unwrap();
+    /// let solution = &robot.inverse(&[4.0, 7.0])?[0];
+    /// let jacobians = robot.jacobians(&solution.pose, &solution.q)?;
+    /// assert_eq!(jacobians.det_a(), solution.det_a);
+    /// assert_eq!(jacobians.mode(), solution.mode);
+    /// # Ok::<(), aspecta_kinematics::KinematicsError>(())
+    /// ```
     fn jacobians(&self, pose: &[f64], q: &[f64]) -> Result<Jacobians, KinematicsError>;
 
     /// The state of the configuration (`pose`, `q`). The two need not belong together: look at
@@ -75,6 +162,23 @@ pub trait Kinematics {
     ///
     /// # Errors
     /// [`KinematicsError`] if `pose` or `q` has the wrong length or is not finite.
+    ///
+    /// # Examples
+    /// ```
+    /// use aspecta_kinematics::{Kinematics, Singularity};
+    /// use aspecta_robot::catalogue;
+    ///
+    /// let robot = catalogue::find("five-bar").unwrap();
+    /// let q = robot.inverse(&[4.0, 7.0])?[0].q.clone();
+    /// let state = robot.state(&[4.0, 7.0], &q)?;
+    /// assert_eq!(state.singularity, Singularity::Regular);
+    /// assert!(state.parallel_measure > 0.1 && state.condition_a < 10.0);
+    ///
+    /// // Leg 1 stretched: Definition 4.
+    /// let stretched = robot.inverse(&[13.0, 0.0])?[0].q.clone();
+    /// assert_eq!(robot.state(&[13.0, 0.0], &stretched)?.serial_legs, [1]);
+    /// # Ok::<(), aspecta_kinematics::KinematicsError>(())
+    /// ```
     fn state(&self, pose: &[f64], q: &[f64]) -> Result<State, KinematicsError>;
 }
 

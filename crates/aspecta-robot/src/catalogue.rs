@@ -35,6 +35,17 @@ const ENTRIES: &[Entry] = entries![
 ];
 
 /// All built-in robots, smallest platforms first.
+///
+/// # Examples
+/// ```
+/// use aspecta_robot::{Robot, catalogue};
+///
+/// for entry in catalogue::all() {
+///     let robot = Robot::from_toml(entry.text, entry.name)?;
+///     assert_eq!(robot.name, entry.name);
+/// }
+/// # Ok::<(), aspecta_robot::FileError>(())
+/// ```
 pub const fn all() -> &'static [Entry] {
     ENTRIES
 }

@@ -12,6 +12,16 @@ pub type Frame = [[Interval; 3]; 3];
 ///
 /// Lengths are in the robot's unit. Every constant is an interval that holds the decimal number of
 /// the robot file.
+///
+/// # Examples
+/// ```
+/// use aspecta_robot::{Actuator, Leg};
+///
+/// // Crank 8 about A = (0, 0), rod 5 to C = (1, 0) of the platform.
+/// let leg = Leg::revolute([0.0, 0.0], [1.0, 0.0], 8.0, 5.0);
+/// assert!(matches!(leg.actuator, Actuator::Revolute(_)));
+/// assert_eq!(leg.actuator.postures(), 2);
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Leg {

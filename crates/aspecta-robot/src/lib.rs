@@ -42,6 +42,15 @@ use serde::{Deserialize, Serialize};
 pub const GREATEST: f64 = 1e7;
 
 /// A robot, ready to compute with. Made from a robot file or by [`Robot::new`].
+///
+/// # Examples
+/// ```
+/// use aspecta_robot::Robot;
+///
+/// let robot = Robot::resolve("3-rrr")?;
+/// assert_eq!((robot.dof(), robot.legs.len(), robot.length_unit.as_str()), (3, 3, "unit"));
+/// # Ok::<(), aspecta_robot::FileError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Robot {
@@ -94,6 +103,20 @@ impl Robot {
     /// # Errors
     /// [`RobotError`] if there is not one leg per degree of freedom, or if spherical legs and
     /// point-to-point legs are mixed up with the wrong platform.
+    ///
+    /// # Examples
+    /// ```
+    /// use aspecta_robot::{Leg, Platform, Robot};
+    ///
+    /// let legs = vec![
+    ///     Leg::revolute([0.0, 0.0], [0.0, 0.0], 8.0, 5.0), // A, C, crank, rod
+    ///     Leg::revolute([9.0, 0.0], [0.0, 0.0], 5.0, 8.0),
+    /// ];
+    /// let robot = Robot::new("five-bar", Platform::PlanePoint, legs)?;
+    /// assert_eq!(robot.working_modes().len(), 4);
+    /// assert!(Robot::new("one leg", Platform::PlanePoint, vec![Leg::strut([0.0; 2], [0.0; 2])]).is_err());
+    /// # Ok::<(), aspecta_robot::RobotError>(())
+    /// ```
     pub fn new(name: &str, platform: Platform, legs: Vec<Leg>) -> Result<Self, RobotError> {
         let kinds: Vec<_> = legs.iter().map(|leg| leg.actuator.kind()).collect();
         check_legs(platform, &kinds)?;

@@ -14,6 +14,15 @@ use std::fmt;
 /// | `free-body` | SE(3) | x, y, z, roll, pitch, yaw | Hexa, Gough-Stewart |
 ///
 /// Angles are in radians. Spatial orientations are R = R_z(yaw) R_y(pitch) R_x(roll).
+///
+/// # Examples
+/// ```
+/// use aspecta_robot::Platform;
+///
+/// let names: Vec<&str> = Platform::PlaneBody.coordinates().iter().map(|c| c.name).collect();
+/// assert_eq!(names, ["x", "y", "phi"]);
+/// assert_eq!((Platform::FreeBody.dof(), Platform::FreeBody.to_string()), (6, "free-body".to_owned()));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Platform {

@@ -90,6 +90,14 @@ impl Robot {
     ///
     /// # Errors
     /// [`SliceError`]: a free coordinate without bounds, an empty workspace, or values that cannot be held.
+    ///
+    /// # Examples
+    /// ```
+    /// let robot = aspecta_robot::catalogue::find("3-rrr").unwrap();
+    /// let window = robot.slice(&[(2, 0.5)])?; // phi = 0.5 rad
+    /// assert_eq!((window.axes(), window.ranges[2]), (vec![0, 1], (0.5, 0.5)));
+    /// # Ok::<(), aspecta_robot::SliceError>(())
+    /// ```
     pub fn slice(&self, fix: &[(usize, f64)]) -> Result<Window, SliceError> {
         let held = self.held_values(fix)?;
         let mut window = Window::default();

@@ -8,6 +8,16 @@ use std::str::FromStr;
 /// A vector of n signs, one per leg: sign(B_jj) = sign(∂f_j/∂q_j). Printed as `+-+`.
 ///
 /// Modes are ordered as in Table 1: from `++…+`, each differing from the one before in one leg (Gray's code).
+///
+/// # Examples
+/// ```
+/// use aspecta_robot::WorkingMode;
+///
+/// let mode: WorkingMode = "+-+".parse()?;
+/// assert_eq!((mode.legs(), mode.sign(1), mode.to_string().as_str()), (3, -1, "+-+"));
+/// assert_eq!(mode, WorkingMode::from_signs([true, false, true]));
+/// # Ok::<(), aspecta_robot::NotAMode>(())
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct WorkingMode {
     /// Bit j set: B_jj < 0.
@@ -88,6 +98,13 @@ impl LegSet {
 impl Robot {
     /// All working modes in the order of Table 1 (`++`, `+-`, `--`, `-+`): each differs from the one before in one leg. A leg with one inverse solution (a
     /// strut, B = −2q < 0) contributes one sign.
+    ///
+    /// # Examples
+    /// ```
+    /// let robot = aspecta_robot::catalogue::find("five-bar").unwrap();
+    /// let modes: Vec<String> = robot.working_modes().iter().map(|mode| mode.to_string()).collect();
+    /// assert_eq!(modes, ["++", "+-", "--", "-+"]);
+    /// ```
     pub fn working_modes(&self) -> Vec<WorkingMode> {
         let n = self.dof();
         (0..1usize << n)

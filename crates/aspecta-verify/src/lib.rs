@@ -79,6 +79,24 @@ pub const ENOUGH: usize = 10;
 ///
 /// Faults are all real for the theorem above: a claim is wrong, or could not be proved with generous effort. If the work is
 /// cancelled, the verdict is incomplete.
+///
+/// # Examples
+/// ```
+/// use aspecta::{Budget, Control, Options, Robot, analyze};
+///
+/// # fn main() -> Result<(), aspecta::Error> {
+/// let robot = Robot::resolve("five-bar")?;
+/// let budget = Budget { depth: Some(6), ..Budget::default() };
+/// let modes = vec!["++".parse()?];
+/// let options = Options { budget, modes, certificate: true, ..Options::default() };
+/// let analysis = analyze(&robot, &options, &Control::unwatched())?;
+/// let certificate = analysis.certificate.expect("asked for");
+///
+/// let verdict = aspecta_verify::verify(&certificate, &Control::unwatched());
+/// assert!(verdict.is_verified());
+/// # Ok(())
+/// # }
+/// ```
 pub fn verify(certificate: &Certificate, control: &Control<'_>) -> Verdict {
     match certificate.robot.platform.space() {
         2 => verify_in::<2>(certificate, control),

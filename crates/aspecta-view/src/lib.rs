@@ -28,7 +28,6 @@
 //! ```
 
 mod domains;
-pub mod doubt;
 mod export;
 #[doc(hidden)]
 pub mod figure;
@@ -40,10 +39,11 @@ pub mod report;
 pub mod words;
 mod xml;
 
+pub use aspecta::text::doubt;
 pub use domains::{Choice, MeshFormat, write as write_domains};
 pub use export::mjcf;
 pub use figure::cut::Cut;
 pub use figure::graph::mode_graph;
 pub use figure::profile::{failure, figure_11};
 pub use report::motion::Motion;
-pub use report::{EARLIER_NEED, write as write_report};
+pub use report::write as write_report;

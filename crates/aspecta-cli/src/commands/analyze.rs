@@ -10,10 +10,10 @@ use crate::args::threads::{self, Threads};
 use crate::failure::{Answer, Failure};
 use crate::input;
 use crate::output::{self, Target, note};
-use crate::show::summary;
 use crate::work::watch::watched;
 use aspecta::aspect::{Analysis, Options, analyze};
 use aspecta::paving::{Budget, Stop};
+use aspecta::text::{Advice, Summary};
 use aspecta_view::write_report;
 use clap::Args;
 use std::io::Write;
@@ -62,6 +62,9 @@ const FIX: &str = "\
     Hold a coordinate at a value and analyse that slice: x=-4, phi=0.5 (radians) or phi=30deg; \
     again, or separated by commas, for several. det A stays that of the whole robot";
 
+/// Where the rows are that the tables leave out.
+const ADVICE: Advice = Advice { on_aspects: ": see --json or --out", on_doubts: " (--json lists all)" };
+
 impl Analyze {
     pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
         let robot = self.robot.load()?;
@@ -88,7 +91,7 @@ impl Analyze {
         if self.shown.json {
             output::json(out, analysis)?;
         } else {
-            summary::print(out, analysis)?;
+            write!(out, "{}", Summary { analysis, advice: ADVICE })?;
         }
         let Some(directory) = self.out.directory() else { return Ok(()) };
         // People see the numbers while the figures are drawn.

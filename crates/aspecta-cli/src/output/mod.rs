@@ -1,16 +1,11 @@
 //! What people, scripts and spreadsheets read.
 
 mod answers;
-mod labels;
-mod paragraph;
-mod table;
 mod target;
 mod zeros;
 
 pub use answers::json_of_each;
-pub use labels::{Labels, det_a_unit};
-pub use paragraph::paragraph;
-pub use table::{Align, Table};
+pub use aspecta::text::{Align, Labels, Table, brief, det_a_unit, number, unsigned};
 pub use target::Target;
 
 use crate::failure::Failure;
@@ -67,35 +62,7 @@ pub fn note(message: &str) {
     let _ = writeln!(io::stderr(), "{message}");
 }
 
-/// A number for people: six decimals, or six digits and a power of ten where these would not show it.
-pub fn number(x: f64) -> String {
-    let size = x.abs();
-    if size == 0.0 || (1e-3..1e7).contains(&size) {
-        format!("{:.6}", unsigned(x))
-    } else {
-        format!("{x:.5e}")
-    }
-}
-
-/// A number for people, in five digits.
-pub fn brief(x: f64) -> String {
-    let size = x.abs();
-    if size == 0.0 {
-        return "0".into();
-    }
-    if !(1e-4..1e6).contains(&size) {
-        return format!("{x:.3e}");
-    }
-    let decimals = (4 - size.log10().floor() as i32).clamp(0, 4) as usize;
-    format!("{x:.decimals$}")
-}
-
 /// A number for machines: the shortest that reads back as the same.
 pub fn exact(x: f64) -> String {
     format!("{:?}", unsigned(x))
-}
-
-/// The number with a zero that has no sign: nobody asks from which side it is one.
-pub fn unsigned(x: f64) -> f64 {
-    x + 0.0
 }

@@ -9,5 +9,4 @@ pub mod places;
 pub mod regions;
 mod route;
 pub mod solutions;
-pub mod summary;
 pub mod verdict;

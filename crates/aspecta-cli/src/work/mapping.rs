@@ -2,7 +2,7 @@
 
 use crate::args::budget;
 use crate::args::making::Making;
-use crate::failure::Failure;
+use crate::failure::{Failure, advice};
 use crate::input;
 use aspecta::aspect::{Analysis, DetSign, Options, analyze};
 use aspecta::domain::boundary::Boundary;
@@ -66,7 +66,7 @@ impl Source {
         }
         let refused = |why: String| Failure::Input(format!("`{name_or_path}`: {why}"));
         let file = std::fs::read(name_or_path).map_err(|e| refused(e.to_string()))?;
-        Ok(Self::Map(Box::new(Map::from_bytes(&file).map_err(|e| refused(e.to_string()))?)))
+        Ok(Self::Map(Box::new(Map::from_bytes(&file).map_err(|e| refused(advice::of_map(&e)))?)))
     }
 
     /// The robot.

@@ -15,6 +15,23 @@ use nalgebra::SMatrix;
 ///
 /// Angles are real numbers: q and the pose's angle φ go on past ±π without a jump, and a joint vector that jumps by a full turn is a full turn to
 /// be made. (Of roll, pitch and yaw, roll and yaw do so as long as the pitch stays within ±π/2.)
+///
+/// # Examples
+/// ```
+/// use aspecta_kinematics::Kinematics;
+/// use aspecta_kinematics::follow::Follower;
+/// use aspecta_robot::catalogue;
+///
+/// let robot = catalogue::find("five-bar").unwrap();
+/// let q = robot.inverse(&[4.0, 7.0]).unwrap()[0].q.clone();
+/// let mut follower = Follower::new(&robot, &[4.0, 7.0], &q).unwrap();
+/// for k in 1..=10 {
+///     let step = follower.step(&[q[0] + 0.01 * f64::from(k), q[1]])?; // what the encoders say
+///     assert!(step.mode_kept && step.length_error < 1e-9);
+/// }
+/// assert!((follower.pose()[0] - 4.0).abs() < 2.0);
+/// # Ok::<(), aspecta_kinematics::follow::Refusal>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Follower {
     robot: Robot,

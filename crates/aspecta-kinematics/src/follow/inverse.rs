@@ -12,6 +12,21 @@ use aspecta_robot::num::{Interval, Scalar, each, padded, without_turns};
 
 /// Follows the inverse solution of one working mode: given the next pose, the joint vector in the same mode, certified,
 /// with angles that go on past ±π without a jump. See [`super`] for the theorem.
+///
+/// # Examples
+/// ```
+/// use aspecta_kinematics::follow::InverseFollower;
+/// use aspecta_robot::catalogue;
+///
+/// let robot = catalogue::find("five-bar").unwrap();
+/// let mut follower = InverseFollower::new(&robot, &[4.0, 7.0], "+-".parse().unwrap()).unwrap();
+/// let step = follower.step(&[4.1, 7.1])?;
+/// assert_eq!(step.q().len(), 2);
+/// // Beyond the reach of leg 2 no step is taken.
+/// assert!(follower.step(&[4.0, 14.0]).is_err());
+/// assert_eq!(follower.pose(), [4.1, 7.1]);
+/// # Ok::<(), aspecta_kinematics::follow::Refusal>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct InverseFollower {
     robot: Robot,

@@ -93,7 +93,7 @@ pub enum StartError {
     /// No direct solution near the pose can be told from all others.
     #[error(
         "no solution for this joint vector is proved to be the one meant by the pose: they do not belong together, or \
-         lie too near to a parallel singularity; look at both with `aspecta state`, and at all poses with `aspecta fk`"
+         lie too near to a parallel singularity"
     )]
     NoSolution,
     /// The pose is out of reach in the mode.

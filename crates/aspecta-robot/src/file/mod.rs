@@ -32,6 +32,32 @@ impl Robot {
     ///
     /// # Errors
     /// [`FileError::Invalid`], which names line, column, key and value.
+    ///
+    /// # Examples
+    /// ```
+    /// use aspecta_robot::Robot;
+    ///
+    /// let text = r#"
+    /// name = "two-struts"
+    /// platform = "plane-point"
+    ///
+    /// [[legs]]
+    /// anchor = [0, 0]
+    /// actuator = { kind = "strut" }
+    /// limits = { actuator = [1, 3] }
+    ///
+    /// [[legs]]
+    /// anchor = [2, 0]
+    /// actuator = { kind = "strut" }
+    /// limits = { actuator = [1, 3] }
+    /// "#;
+    /// let robot = Robot::from_toml(text, "two-struts.toml")?;
+    /// assert_eq!(robot.working_modes().len(), 1);
+    ///
+    /// let mistake = Robot::from_toml(&text.replace("strut\"", "spring\""), "two-struts.toml").unwrap_err();
+    /// assert!(mistake.to_string().contains("two-struts.toml:7"));
+    /// # Ok::<(), aspecta_robot::FileError>(())
+    /// ```
     pub fn from_toml(text: &str, file: &str) -> Result<Self, FileError> {
         let tree = DeTable::parse(text).map_err(|e| Fault::from_parser(&e, text).locate(file, text, None))?;
         format::RobotFile::deserialize(Deserializer::from(tree.clone()))
@@ -56,6 +82,15 @@ impl Robot {
     ///
     /// # Errors
     /// [`FileError::UnknownRobot`] if it is neither; else as [`Robot::load`].
+    ///
+    /// # Examples
+    /// ```
+    /// use aspecta_robot::{FileError, Robot};
+    ///
+    /// assert_eq!(Robot::resolve("gough-stewart")?.dof(), 6);
+    /// assert!(matches!(Robot::resolve("stewart-gough"), Err(FileError::UnknownRobot { .. })));
+    /// # Ok::<(), FileError>(())
+    /// ```
     pub fn resolve(name_or_path: &str) -> Result<Self, FileError> {
         if let Some(entry) = catalogue::all().iter().find(|e| e.name == name_or_path) {
             return Self::from_toml(entry.text, &format!("{name_or_path}.toml"));

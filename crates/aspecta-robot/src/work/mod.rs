@@ -20,6 +20,18 @@ pub struct Progress {
 }
 
 /// How a caller watches and stops long work.
+///
+/// # Examples
+/// ```
+/// use aspecta_robot::work::Control;
+/// use std::sync::atomic::{AtomicBool, Ordering};
+///
+/// let cancelled = AtomicBool::new(false);
+/// let control = Control { cancelled: &cancelled, progress: &|now| eprintln!("{}: {}", now.stage, now.done) };
+/// assert!(!control.is_cancelled());
+/// cancelled.store(true, Ordering::Relaxed); // from another thread, say
+/// assert!(control.is_cancelled());
+/// ```
 #[derive(Clone, Copy)]
 pub struct Control<'a> {
     /// Set it to true to stop: the result so far is returned.

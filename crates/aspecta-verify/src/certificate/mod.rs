@@ -140,6 +140,14 @@ impl Certificate {
     ///
     /// # Errors
     /// [`CertificateError`] if the text is none, or its parts do not fit together.
+    ///
+    /// # Examples
+    /// ```
+    /// use aspecta_verify::certificate::{Certificate, CertificateError};
+    ///
+    /// let refused = Certificate::from_json(b"{ \"certificate_version\": 2 }");
+    /// assert!(matches!(refused, Err(CertificateError::Form(_))));
+    /// ```
     pub fn from_json(text: &[u8]) -> Result<Self, CertificateError> {
         let certificate: Self = serde_json::from_slice(text)?;
         if certificate.certificate_version != FORMAT_VERSION {

@@ -14,9 +14,6 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Why an analysis has no parallel and serial aspects.
-pub const EARLIER_NEED: &str = "they are made of all working modes, of up to 8, together";
-
 /// A figure: its file name without extension, and the SVG.
 type Figure = (String, String);
 

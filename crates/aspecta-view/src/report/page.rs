@@ -226,7 +226,7 @@ fn earlier_section(analysis: &Analysis, figures: &Figures) -> Markup {
             p { "Parallel aspects (Definition 5) divide the poses by the sign of det A; serial aspects (Definition 6) divide the joint \
                  vectors by the signs of the B" sub { "jj" } ". Each was made for robots with one solution of the inverse, or of the \
                  direct, model. This robot has several of both, and then neither tells its solutions apart." }
-            @if analysis.parallel_aspects.is_empty() { p { "They are left out here: " (super::EARLIER_NEED) "." } }
+            @if analysis.parallel_aspects.is_empty() { p { "They are left out here: " (aspecta::text::EARLIER_NEED) "." } }
             @if let Some([parallel, serial]) = figures.flat.as_ref().and_then(|flat| flat.earlier.as_ref()) {
                 (figure(parallel, html! {
                     "Definition 5 (figures 6 and 7 of the paper): all configurations with det A of one sign, in W" @if has_q(analysis) { " and in Q" } ". Shades count the \

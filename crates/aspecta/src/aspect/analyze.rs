@@ -47,6 +47,25 @@ const HOPELESS_BOXES: u64 = 4_000_000;
 /// # Errors
 /// [`AnalysisError`] if the workspace is unbounded or empty, more than three coordinates are free, there is no such slice or no such
 /// mode, or too many modes for a certificate.
+///
+/// # Examples
+/// ```
+/// use aspecta::{Budget, Control, Options, Robot, analyze};
+///
+/// # fn main() -> Result<(), aspecta::Error> {
+/// let robot = Robot::resolve("five-bar")?;
+/// let budget = Budget { depth: Some(7), ..Budget::default() };
+/// let options = Options { budget, modes: vec!["++".parse()?], ..Options::default() };
+/// let analysis = analyze(&robot, &options, &Control::unwatched())?;
+///
+/// for class in &analysis.classes {
+///     println!("mode {}, det A {}: at least {}", class.mode, class.det_a, class.low);
+/// }
+/// assert_eq!(analysis.classes.len(), 2);
+/// assert!(analysis.aspects.low >= 2);
+/// # Ok(())
+/// # }
+/// ```
 pub fn analyze(robot: &Robot, options: &Options, control: &Control<'_>) -> Result<Analysis, AnalysisError> {
     with_deep_stacks(robot, || analyze_here(robot, options, control))
 }

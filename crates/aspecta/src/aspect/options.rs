@@ -4,6 +4,20 @@ use crate::paving::Budget;
 use aspecta_robot::WorkingMode;
 
 /// How an analysis is done.
+///
+/// # Examples
+/// ```
+/// use aspecta::{Budget, Options};
+///
+/// // A slice of a 3-RRR, phi = 0.5 rad, with the proof of its bounds.
+/// let options = Options {
+///     budget: Budget { seconds: Some(30.0), ..Budget::default() },
+///     fix: vec![(2, 0.5)],
+///     certificate: true,
+///     ..Options::default()
+/// };
+/// assert!(options.modes.is_empty()); // all of the robot
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
     /// How far the paving goes. Where nothing says when to stop: until the bounds meet, or [`crate::paving::MAX_BOXES`] boxes; 4 million

@@ -22,7 +22,7 @@ pub enum AnalysisError {
     /// Too many free coordinates to be paved.
     #[error(
         "robot `{robot}` has {dof} degrees of freedom, {free} of them free, but aspects are computed for up to 3 free \
-         coordinates: analyse a slice, for instance with `--fix {hold}`"
+         coordinates: analyse a slice"
     )]
     Dimension {
         /// Robot name.
@@ -31,12 +31,12 @@ pub enum AnalysisError {
         dof: usize,
         /// How many coordinates are not held.
         free: usize,
-        /// Coordinates to hold and values, as the program takes them: a slice with three free coordinates.
+        /// Coordinates to hold and values, `name=value` separated by commas: a slice with three free coordinates.
         hold: String,
     },
     /// No certificate can be made.
     #[error(
-        "a certificate holds up to {MODES} working modes, and {modes} of robot `{robot}` are analysed: choose some with `--mode`"
+        "a certificate holds up to {MODES} working modes, and {modes} of robot `{robot}` are analysed: choose some"
     )]
     Certificate {
         /// Robot name.

@@ -94,6 +94,25 @@ impl Analysis {
 
     /// Where `pose` is, as class `class` (index into [`Analysis::classes`]) sees it; angles count modulo 2π. A pose on the
     /// boundary of two cells may get the answer of either; one off the slice is outside.
+    ///
+    /// # Examples
+    /// ```
+    /// use aspecta::aspect::Place;
+    /// use aspecta::{Budget, Control, DetSign, Options, Robot, analyze};
+    ///
+    /// # fn main() -> Result<(), aspecta::Error> {
+    /// let robot = Robot::resolve("five-bar")?;
+    /// let budget = Budget { depth: Some(7), ..Budget::default() };
+    /// let modes = vec!["++".parse()?];
+    /// let options = Options { budget, modes, ..Options::default() };
+    /// let analysis = analyze(&robot, &options, &Control::unwatched())?;
+    ///
+    /// let class = analysis.class_of("++".parse()?, DetSign::Positive).expect("analysed");
+    /// assert!(matches!(analysis.locate(class, &[4.0, 7.0]), Place::Inside(_)));
+    /// assert_eq!(analysis.locate(class, &[40.0, 0.0]), Place::Outside);
+    /// # Ok(())
+    /// # }
+    /// ```
     pub fn locate(&self, class: usize, pose: &[f64]) -> Place {
         let pose = self.window.turned(pose);
         let labels = &self.labels[class];
@@ -139,6 +158,24 @@ impl Analysis {
 
     /// The [`Aspect::id`] of the aspect that a pose of class `class` lies in; `None` if the pose is not in the class, or lies in
     /// an undecided cell from which no certified ascent leads into a cell of an aspect. Certified where `Some`.
+    ///
+    /// # Examples
+    /// ```
+    /// use aspecta::{Budget, Control, DetSign, Options, Robot, analyze};
+    ///
+    /// # fn main() -> Result<(), aspecta::Error> {
+    /// let robot = Robot::resolve("five-bar")?;
+    /// let budget = Budget { depth: Some(7), ..Budget::default() };
+    /// let modes = vec!["++".parse()?];
+    /// let options = Options { budget, modes, ..Options::default() };
+    /// let analysis = analyze(&robot, &options, &Control::unwatched())?;
+    ///
+    /// let class = analysis.class_of("++".parse()?, DetSign::Positive).expect("analysed");
+    /// let id = analysis.aspect_at(class, &[4.0, 7.0]).expect("in an aspect");
+    /// assert_eq!(analysis.aspect(id).map(|(class, _)| class), Some(class));
+    /// # Ok(())
+    /// # }
+    /// ```
     pub fn aspect_at(&self, class: usize, pose: &[f64]) -> Option<usize> {
         match self.locate(class, pose) {
             Place::Inside(id) => Some(id),

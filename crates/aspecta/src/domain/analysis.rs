@@ -21,6 +21,26 @@ const MOST_NODES: usize = 200_000_000;
 ///
 /// # Errors
 /// [`DomainError`].
+///
+/// # Examples
+/// ```
+/// use aspecta::{Budget, Control, DomainOptions, Options, Robot, analyze, domains};
+///
+/// # fn main() -> Result<(), aspecta::Error> {
+/// let robot = Robot::resolve("five-bar")?;
+/// let budget = Budget { depth: Some(7), ..Budget::default() };
+/// let modes = vec!["++".parse()?];
+/// let options = Options { budget, modes, ..Options::default() };
+/// let analysis = analyze(&robot, &options, &Control::unwatched())?;
+///
+/// let options = DomainOptions { cells: 20, samples: 100 };
+/// let found = domains(&analysis, 1, options, &Control::unwatched())?;
+/// assert!(!found.regions.is_empty() && !found.uniqueness.is_empty());
+/// assert!(found.uniqueness[0].of_aspect <= 1.0);
+/// assert!(domains(&analysis, 99, options, &Control::unwatched()).is_err());
+/// # Ok(())
+/// # }
+/// ```
 pub fn domains(
     analysis: &Analysis,
     id: usize,

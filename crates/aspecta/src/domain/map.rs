@@ -125,6 +125,28 @@ impl Map {
     ///
     /// # Errors
     /// [`Nowhere`] if it is in no aspect.
+    ///
+    /// # Examples
+    /// ```
+    /// use aspecta::{Budget, Control, DomainOptions, Map, MappedAspect, Options, Robot, analyze, domains};
+    ///
+    /// # fn main() -> Result<(), aspecta::Error> {
+    /// let robot = Robot::resolve("five-bar")?;
+    /// let budget = Budget { depth: Some(7), ..Budget::default() };
+    /// let modes = vec!["++".parse()?];
+    /// let options = Options { budget, modes, ..Options::default() };
+    /// let analysis = analyze(&robot, &options, &Control::unwatched())?;
+    ///
+    /// let options = DomainOptions { cells: 20, samples: 100 };
+    /// let domains = domains(&analysis, 1, options, &Control::unwatched())?;
+    /// let map = Map::new(&analysis, vec![MappedAspect { domains, surfaces: None }]);
+    ///
+    /// let found = map.locate(&[4.0, 7.0], "++".parse()?)?;
+    /// assert!(found.aspect.is_some());
+    /// assert!(map.locate(&[40.0, 0.0], "++".parse()?).is_err()); // out of reach
+    /// # Ok(())
+    /// # }
+    /// ```
     pub fn locate(&self, pose: &[f64], mode: WorkingMode) -> Result<Location, Nowhere> {
         check_pose(&self.robot, pose)?;
         let det_a = for_platform!(self.robot.platform, sign_at(self, pose, mode))?;

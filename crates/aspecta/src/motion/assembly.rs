@@ -62,6 +62,24 @@ pub struct SharedAspect {
 ///
 /// # Errors
 /// [`KinematicsError`] if `q` does not fit the robot or its direct problem cannot be solved.
+///
+/// # Examples
+/// ```
+/// use aspecta::{Budget, Control, Kinematics, Options, Robot, analyze, assembly_modes};
+///
+/// # fn main() -> Result<(), aspecta::Error> {
+/// let robot = Robot::resolve("five-bar")?;
+/// let budget = Budget { depth: Some(7), ..Budget::default() };
+/// let options = Options { budget, ..Options::default() };
+/// let analysis = analyze(&robot, &options, &Control::unwatched())?;
+///
+/// let q = robot.inverse(&[4.0, 7.0])?[0].q.clone();
+/// let found = assembly_modes(&analysis, &q)?;
+/// assert_eq!((found.solutions.len(), found.complete), (2, true));
+/// assert!(found.shared.is_empty()); // the two have opposite signs of det A
+/// # Ok(())
+/// # }
+/// ```
 pub fn assembly_modes(analysis: &Analysis, q: &[f64]) -> Result<AssemblyModes, KinematicsError> {
     let found = analysis.robot.direct_certified(q)?;
     let complete = found.complete;

@@ -55,6 +55,24 @@ pub struct Route {
 
 impl ModeGraph {
     /// The graph of an analysis of all modes.
+    ///
+    /// # Examples
+    /// ```
+    /// use aspecta::{Budget, Control, ModeGraph, Options, Robot, analyze};
+    ///
+    /// # fn main() -> Result<(), aspecta::Error> {
+    /// let robot = Robot::resolve("five-bar")?;
+    /// let budget = Budget { depth: Some(7), ..Budget::default() };
+    /// let options = Options { budget, ..Options::default() };
+    /// let analysis = analyze(&robot, &options, &Control::unwatched())?;
+    ///
+    /// let graph = ModeGraph::new(&analysis);
+    /// // det A keeps its sign through every change of posture.
+    /// assert!(graph.groups.len() >= 2);
+    /// assert!(graph.crossings.iter().all(|crossing| crossing.clearance > 0.0));
+    /// # Ok(())
+    /// # }
+    /// ```
     pub fn new(analysis: &Analysis) -> Self {
         let entries = analysis.classes.iter().flat_map(|class| {
             class.aspects.iter().map(|aspect| GraphAspect {
@@ -200,6 +218,27 @@ impl Planner<'_> {
     ///
     /// # Errors
     /// [`NoRoute`]. Signs of det A that differ are a proof that there is none: det A keeps its sign through every crossing.
+    ///
+    /// # Examples
+    /// ```
+    /// use aspecta::motion::modes::Configuration;
+    /// use aspecta::{Budget, Control, ModeGraph, Options, PlanOptions, Planner, Robot, analyze};
+    ///
+    /// # fn main() -> Result<(), aspecta::Error> {
+    /// let robot = Robot::resolve("five-bar")?;
+    /// let budget = Budget { depth: Some(8), ..Budget::default() };
+    /// let options = Options { budget, ..Options::default() };
+    /// let analysis = analyze(&robot, &options, &Control::unwatched())?;
+    ///
+    /// let graph = ModeGraph::new(&analysis);
+    /// let pose = [4.0, 7.0];
+    /// let start = Configuration { pose: &pose, mode: "++".parse()? };
+    /// let goal = Configuration { mode: "--".parse()?, ..start };
+    /// let route = Planner::new(&analysis).route(&graph, start, goal, &PlanOptions::default())?;
+    /// assert_eq!(route.stretches.len(), route.crossings.len() + 1);
+    /// # Ok(())
+    /// # }
+    /// ```
     pub fn route(
         &mut self,
         graph: &ModeGraph,

@@ -98,6 +98,24 @@ pub struct LinkedAspects {
 ///
 /// # Errors
 /// [`KinematicsError`] if a pose does not fit the robot.
+///
+/// # Examples
+/// ```
+/// use aspecta::motion::traverse::Holds;
+/// use aspecta::{Budget, Control, Options, PoseSet, Robot, analyze, traversability};
+///
+/// # fn main() -> Result<(), aspecta::Error> {
+/// let robot = Robot::resolve("five-bar")?;
+/// let budget = Budget { depth: Some(8), ..Budget::default() };
+/// let modes = vec!["++".parse()?];
+/// let options = Options { budget, modes, ..Options::default() };
+/// let analysis = analyze(&robot, &options, &Control::unwatched())?;
+///
+/// let found = traversability(&analysis, None, PoseSet::Box(vec![(3.9, 4.1), (6.9, 7.1)]))?;
+/// assert!(found.classes.iter().any(|class| matches!(class.holds, Holds::Whole { .. })));
+/// # Ok(())
+/// # }
+/// ```
 pub fn traversability(
     analysis: &Analysis,
     graph: Option<&ModeGraph>,

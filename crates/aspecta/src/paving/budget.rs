@@ -5,6 +5,16 @@ use aspecta_robot::Window;
 use serde::Serialize;
 
 /// How far a paving goes. Whatever is met first ends it.
+///
+/// # Examples
+/// ```
+/// use aspecta::{Budget, Robot};
+///
+/// let budget = Budget { resolution: Some(0.1), ..Budget::default() };
+/// let window = Robot::resolve("five-bar")?.slice(&[])?;
+/// assert_eq!(budget.finest(&window), Some(9)); // the window is less than 0.1 · 2⁹ wide
+/// # Ok::<(), aspecta::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Budget {
     /// Wall-clock seconds of an analysis: [`PAVING_SHARE`] of them for the paving, the rest for what is done with it.

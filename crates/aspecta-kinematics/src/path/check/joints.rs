@@ -23,6 +23,22 @@ const SHORTEST: f64 = 1e-9;
 ///
 /// # Errors
 /// [`PathError`] if the joint vectors do not fit the robot, or if it is not known where the path starts.
+///
+/// # Examples
+/// ```
+/// use aspecta_kinematics::Kinematics;
+/// use aspecta_kinematics::path::{PathOptions, check_joints};
+/// use aspecta_robot::catalogue;
+///
+/// let robot = catalogue::find("five-bar").unwrap();
+/// let start = [4.0, 7.0];
+/// let q = robot.inverse(&start).unwrap()[0].q.clone();
+/// let path = [q.clone(), vec![q[0] + 0.1, q[1] - 0.1]];
+/// let check = check_joints(&robot, &path, Some(&start), &PathOptions::default())?;
+/// assert!(check.is_sound());
+/// assert!(check_joints(&robot, &path, None, &PathOptions::default()).is_err()); // two poses fit q
+/// # Ok::<(), aspecta_kinematics::path::PathError>(())
+/// ```
 pub fn check_joints(
     robot: &Robot,
     joints: &[Vec<f64>],

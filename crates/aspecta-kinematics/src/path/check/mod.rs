@@ -160,6 +160,23 @@ impl PathOptions {
 ///
 /// # Errors
 /// As [`check_poses`].
+///
+/// # Examples
+/// ```
+/// use aspecta_kinematics::path::check_path;
+/// use aspecta_robot::catalogue;
+///
+/// let robot = catalogue::find("five-bar").unwrap();
+/// let mode = "++".parse().unwrap();
+/// let check = check_path(&robot, &[vec![4.0, 7.0], vec![4.5, 7.5]], mode)?;
+/// assert!(check.is_sound());
+///
+/// // Straight up, leg 2 is stretched 5/7 of the way.
+/// let check = check_path(&robot, &[vec![4.0, 7.0], vec![4.0, 14.0]], mode)?;
+/// assert_eq!(check.singularity_free, Some(false));
+/// assert!((check.obstacle.unwrap().t.0 - 5.0 / 7.0).abs() < 1e-6);
+/// # Ok::<(), aspecta_kinematics::path::PathError>(())
+/// ```
 pub fn check_path(robot: &Robot, poses: &[Vec<f64>], mode: WorkingMode) -> Result<PathCheck, PathError> {
     check_poses(robot, poses, mode, &PathOptions::default())
 }
@@ -171,6 +188,23 @@ pub fn check_path(robot: &Robot, poses: &[Vec<f64>], mode: WorkingMode) -> Resul
 ///
 /// # Errors
 /// [`PathError`] if the poses or the mode do not fit the robot, or if the start is out of reach or singular.
+///
+/// # Examples
+/// ```
+/// use aspecta_kinematics::demand::Margins;
+/// use aspecta_kinematics::path::{Joined, PathOptions, check_poses};
+/// use aspecta_robot::catalogue;
+///
+/// let robot = catalogue::find("five-bar").unwrap();
+/// let poses = [vec![4.0, 7.0], vec![4.5, 7.5], vec![5.0, 7.0]];
+/// let margins = Margins { parallel: 0.01, serial: 0.01 };
+/// let options = PathOptions { joined: Joined::Spline, margins };
+/// let check = check_poses(&robot, &poses, "++".parse().unwrap(), &options)?;
+/// assert_eq!(check.keeps_margins, Some(true));
+/// let clearance = check.clearance.unwrap();
+/// assert!(clearance.parallel.at_least > 0.01 && clearance.parallel.at_least <= clearance.parallel.at_most);
+/// # Ok::<(), aspecta_kinematics::path::PathError>(())
+/// ```
 pub fn check_poses(
     robot: &Robot,
     poses: &[Vec<f64>],

@@ -90,6 +90,21 @@ const SAME: f64 = 1e-6;
 ///
 /// # Errors
 /// [`TimeError`] if limits are not positive, if pieces do not fit together, or if nothing moves.
+///
+/// # Examples
+/// ```
+/// use aspecta_kinematics::path::check_path;
+/// use aspecta_kinematics::path::time::{JointLimits, trajectory};
+/// use aspecta_robot::catalogue;
+///
+/// let robot = catalogue::find("five-bar").unwrap();
+/// let check = check_path(&robot, &[vec![4.0, 7.0], vec![4.5, 7.5]], "++".parse().unwrap()).unwrap();
+/// let limits = JointLimits { speed: vec![2.0; 2], acceleration: vec![10.0; 2] }; // rad/s, rad/s²
+/// let motion = trajectory(&check.pieces(), &limits)?;
+/// let half = motion.at(0.5 * motion.total_time());
+/// assert!(half.velocity.iter().all(|v| v.abs() <= 2.0 + 1e-9));
+/// # Ok::<(), aspecta_kinematics::path::time::TimeError>(())
+/// ```
 pub fn trajectory(pieces: &[Piece], limits: &JointLimits) -> Result<Trajectory, TimeError> {
     let joints = pieces.iter().flat_map(|p| &p.samples).next().map_or(0, |w| w.q.len());
     check_limits(limits, joints)?;

@@ -28,15 +28,13 @@ const LARGEST: u64 = 1 << 30;
 #[derive(Debug, thiserror::Error)]
 pub enum MapError {
     /// Not compressed, or damaged.
-    #[error("damaged, or not written by `aspecta domains --save`: {0}")]
+    #[error("damaged, or not a map of a robot's aspects: {0}")]
     Damaged(#[from] io::Error),
     /// It is not the JSON of a map; the message says where.
     #[error("not a map of a robot's aspects: {0}")]
     Form(#[from] serde_json::Error),
     /// Another version of the format.
-    #[error(
-        "the map has version {found}, this program reads version {MAP_VERSION}: make it again with `aspecta domains --save`"
-    )]
+    #[error("the map has version {found}, this program reads version {MAP_VERSION}: make it again")]
     Version {
         /// The version.
         found: u32,
@@ -109,6 +107,24 @@ impl Map {
     ///
     /// # Errors
     /// None in practice: memory is written to.
+    ///
+    /// # Examples
+    /// ```
+    /// use aspecta::{Budget, Control, Map, Options, Robot, analyze};
+    ///
+    /// # fn main() -> Result<(), aspecta::Error> {
+    /// let robot = Robot::resolve("five-bar")?;
+    /// let budget = Budget { depth: Some(6), ..Budget::default() };
+    /// let modes = vec!["++".parse()?];
+    /// let options = Options { budget, modes, ..Options::default() };
+    /// let analysis = analyze(&robot, &options, &Control::unwatched())?;
+    ///
+    /// let map = Map::new(&analysis, Vec::new());
+    /// let file = map.to_bytes()?;
+    /// assert_eq!(Map::from_bytes(&file)?.classes, map.classes);
+    /// # Ok(())
+    /// # }
+    /// ```
     pub fn to_bytes(&self) -> Result<Vec<u8>, MapError> {
         let file = FileOut {
             map_version: MAP_VERSION,

@@ -94,8 +94,8 @@ pub enum End {
 pub enum ExploreError {
     /// Other platforms have few enough coordinates for boxes.
     #[error(
-        "robot `{robot}` has a `{platform}` platform: roadmaps are for `free-body` ones; the aspects of this one are found in full by \
-         an analysis (`aspecta analyze`)"
+        "robot `{robot}` has a `{platform}` platform: roadmaps are for `free-body` ones; the aspects of this one are \
+         found in full by an analysis"
     )]
     NotFree {
         /// The robot.
@@ -162,6 +162,20 @@ pub struct Component {
 ///
 /// # Errors
 /// [`ExploreError`].
+///
+/// # Examples
+/// ```
+/// use aspecta::{Control, Effort, Robot, explore};
+///
+/// # fn main() -> Result<(), aspecta::Error> {
+/// let robot = Robot::resolve("gough-stewart")?;
+/// let effort = Effort { samples: 10, ..Effort::default() };
+/// let found = explore(&robot, &[], &effort, &Control::unwatched())?;
+/// assert_eq!(found.classes.len(), 2); // one working mode, two signs of det A
+/// assert!(found.at_least <= 2);
+/// # Ok(())
+/// # }
+/// ```
 pub fn explore(
     robot: &Robot,
     modes: &[WorkingMode],

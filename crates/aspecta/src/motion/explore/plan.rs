@@ -22,6 +22,23 @@ use aspecta_robot::work::Stopwatch;
 /// # Errors
 /// [`NoWay::Robot`] if roadmaps are not for this robot; else [`NoWay::Refused`]: [`Refusal::OppositeSigns`] proves that there is no path,
 /// [`Refusal::NotJoined`] says that none was found.
+///
+/// # Examples
+/// ```
+/// use aspecta::motion::explore::{Effort, plan};
+/// use aspecta::{Control, PlanOptions, Robot};
+///
+/// # fn main() -> Result<(), aspecta::Error> {
+/// let robot = Robot::resolve("gough-stewart")?;
+/// let mode = robot.working_modes()[0];
+/// let pose = [0.535, -0.75, -0.39, -2.785, -0.973, 1.06];
+/// let goal = [0.55, -0.75, -0.39, -2.785, -0.973, 1.06];
+/// let effort = Effort { samples: 100, ..Effort::default() };
+/// let found = plan(&robot, mode, [&pose, &goal], &PlanOptions::default(), &effort, &Control::unwatched())?;
+/// assert!(aspecta::check_path(&robot, &found.waypoints, mode)?.is_sound());
+/// # Ok(())
+/// # }
+/// ```
 pub fn plan(
     robot: &Robot,
     mode: WorkingMode,

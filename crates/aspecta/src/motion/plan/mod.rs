@@ -130,6 +130,25 @@ impl<'a> Planner<'a> {
     ///
     /// # Errors
     /// [`Refusal`]: what is wrong with the poses, why no path exists, or what could not be decided.
+    ///
+    /// # Examples
+    /// ```
+    /// use aspecta::{Budget, Control, Options, PlanOptions, Planner, Robot, analyze};
+    ///
+    /// # fn main() -> Result<(), aspecta::Error> {
+    /// let robot = Robot::resolve("five-bar")?;
+    /// let budget = Budget { depth: Some(8), ..Budget::default() };
+    /// let modes = vec!["++".parse()?];
+    /// let options = Options { budget, modes, ..Options::default() };
+    /// let analysis = analyze(&robot, &options, &Control::unwatched())?;
+    ///
+    /// let mut planner = Planner::new(&analysis);
+    /// let plan = planner.plan("++".parse()?, &[4.0, 7.0], &[5.0, 6.0], &PlanOptions::default())?;
+    /// assert_eq!(plan.waypoints[0], [4.0, 7.0]);
+    /// assert!(aspecta::check_path(&robot, &plan.waypoints, plan.mode)?.is_sound());
+    /// # Ok(())
+    /// # }
+    /// ```
     pub fn plan(
         &mut self,
         mode: WorkingMode,

@@ -1,47 +1,96 @@
 //! The result of an analysis for people, in 100 columns.
 
-use super::doubts;
-use crate::failure::Failure;
-use crate::output::{Align, Labels, Table, brief, paragraph};
-use aspecta::aspect::{
+use super::{Align, Labels, Table, between, brief, doubts, paragraph};
+use crate::aspect::{
     Analysis, Aspect, AspectClass, Count, DetSign, EarlierAspects, Held, Measure, Reachable,
 };
-use aspecta::kinematics::WorkingMode;
-use aspecta::paving::Stop;
-use aspecta::robot::Robot;
-use aspecta_view::EARLIER_NEED;
-use aspecta_view::words::{between, count};
-use std::io::Write;
+use crate::paving::Stop;
+use aspecta_kinematics::WorkingMode;
+use aspecta_robot::Robot;
+use aspecta_robot::num::count;
+use std::fmt::{self, Write};
 
-/// Aspects listed; the rest is in the JSON.
+/// Aspects listed; the rest is in the analysis.
 const LISTED: usize = 40;
 
-/// Prints what was found: Theorem 1, Tables 1 and 2, the number of aspects, where its bounds are apart, the aspects, Definitions 5 and 6.
-pub fn print(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
+/// What Definitions 5 and 6 need.
+pub const EARLIER_NEED: &str = "they are made of all working modes, of up to 8, together";
+
+/// What is said after `… and 3 more`: where a program shows the rest.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Advice {
+    /// Of aspects.
+    pub on_aspects: &'static str,
+    /// Of doubts.
+    pub on_doubts: &'static str,
+}
+
+/// An analysis as a summary that a person reads, with a program's advice.
+#[derive(Clone, Copy, Debug)]
+pub struct Summary<'a> {
+    /// The analysis.
+    pub analysis: &'a Analysis,
+    /// The advice.
+    pub advice: Advice,
+}
+
+/// Theorem 1, Tables 1 and 2, the number of aspects, where its bounds are apart, the aspects, Definitions 5 and 6, and
+/// the run, in 100 columns.
+///
+/// # Examples
+/// ```
+/// use aspecta::{Budget, Control, Options, Robot, analyze};
+///
+/// # fn main() -> Result<(), aspecta::Error> {
+/// let robot = Robot::resolve("five-bar")?;
+/// let budget = Budget { depth: Some(7), ..Budget::default() };
+/// let options = Options { budget, ..Options::default() };
+/// let summary = analyze(&robot, &options, &Control::unwatched())?.to_string();
+/// assert!(summary.contains("Table 2: generalized aspects (Def. 8), area in unit^2"));
+/// # Ok(())
+/// # }
+/// ```
+impl fmt::Display for Analysis {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        Summary { analysis: self, advice: Advice::default() }.fmt(f)
+    }
+}
+
+impl fmt::Display for Summary<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write(f, self.analysis, &self.advice)
+    }
+}
+
+fn write(out: &mut dyn Write, analysis: &Analysis, advice: &Advice) -> fmt::Result {
     let robot = &analysis.robot;
     let title = if robot.title.is_empty() { String::new() } else { format!(": {}", robot.title) };
-    paragraph(out, &format!("{}{title} ({}, {} legs)", robot.name, robot.platform, robot.dof()))?;
+    writeln!(
+        out,
+        "{}",
+        paragraph(&format!("{}{title} ({}, {} legs)", robot.name, robot.platform, robot.dof()))
+    )?;
     if let Some(slice) = slice(analysis) {
-        paragraph(out, &slice)?;
+        writeln!(out, "{}", paragraph(&slice))?;
     }
     theorem_1(out, analysis)?;
     table_1(out, analysis)?;
     table_2(out, analysis)?;
-    doubts::print(out, analysis)?;
-    aspects(out, analysis)?;
+    doubts::write(out, analysis, advice)?;
+    aspects(out, analysis, advice)?;
     writeln!(out)?;
     let earlier_sets = [
         ("Def. 5, parallel aspects", &analysis.parallel_aspects),
         ("Def. 6, serial aspects", &analysis.serial_aspects),
     ];
     for (name, sets) in earlier_sets.into_iter().filter(|(_, sets)| !sets.is_empty()) {
-        paragraph(out, &earlier(name, sets, &analysis.measure))?;
+        writeln!(out, "{}", paragraph(&earlier(name, sets, &analysis.measure)))?;
     }
     if analysis.parallel_aspects.is_empty() {
-        paragraph(out, &format!("Defs 5 and 6: left out, {EARLIER_NEED}."))?;
+        writeln!(out, "{}", paragraph(&format!("Defs 5 and 6: left out, {EARLIER_NEED}.")))?;
     }
     writeln!(out)?;
-    paragraph(out, &run(analysis))
+    writeln!(out, "{}", paragraph(&run(analysis)))
 }
 
 /// What was held, if anything.
@@ -55,7 +104,7 @@ fn slice(analysis: &Analysis) -> Option<String> {
 }
 
 /// One line for all legs of the same answer.
-fn theorem_1(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
+fn theorem_1(out: &mut dyn Write, analysis: &Analysis) -> fmt::Result {
     let holds = analysis.legs.iter().all(|l| !l.cuspidal && l.postures <= 2);
     let verdict = if holds { "separate" } else { "do not separate" };
     writeln!(out, "\nTheorem 1: working modes {verdict} the inverse solutions")?;
@@ -70,12 +119,16 @@ fn theorem_1(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
             format!("legs {}-{}", first.leg, last.leg)
         };
         let cuspidal = if first.cuspidal { "cuspidal" } else { "not cuspidal" };
-        paragraph(out, &format!("  {legs} ({}): {cuspidal}: {}", first.actuator, first.reason))?;
+        writeln!(
+            out,
+            "{}",
+            paragraph(&format!("  {legs} ({}): {cuspidal}: {}", first.actuator, first.reason))
+        )?;
     }
     Ok(())
 }
 
-fn table_1(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
+fn table_1(out: &mut dyn Write, analysis: &Analysis) -> fmt::Result {
     writeln!(out, "\nTable 1: working modes (Def. 7)")?;
     let shown = shown(analysis);
     let labels = Labels::pose(&analysis.robot, false).only(&shown);
@@ -93,7 +146,7 @@ fn table_1(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
         let number = format!("Mf{}", report.number);
         table.row([number].into_iter().chain(signs).chain([reachable.into(), example]));
     }
-    Ok(write!(out, "{table}")?)
+    write!(out, "{table}")
 }
 
 /// Whether the coordinates of a robot are too many for a line of the terminal: those that are held, and the joints, are left to the JSON.
@@ -129,7 +182,7 @@ fn signs_of(mode: WorkingMode) -> Vec<String> {
     mode.signs().map(|s| if s > 0 { " +" } else { " -" }.to_owned()).collect()
 }
 
-fn table_2(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
+fn table_2(out: &mut dyn Write, analysis: &Analysis) -> fmt::Result {
     writeln!(
         out,
         "\nTable 2: generalized aspects (Def. 8), {} in {}",
@@ -156,10 +209,10 @@ fn table_2(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
         None => format!("certified: at least {}; no upper bound is proved at this resolution", count.low),
     };
     let of_slice = if analysis.fixed.is_empty() { "" } else { " of the slice" };
-    paragraph(out, &format!("number of generalized aspects{of_slice}, {total}"))
+    writeln!(out, "{}", paragraph(&format!("number of generalized aspects{of_slice}, {total}")))
 }
 
-fn aspects(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
+fn aspects(out: &mut dyn Write, analysis: &Analysis, advice: &Advice) -> fmt::Result {
     let all: Vec<(&AspectClass, &Aspect)> =
         analysis.classes.iter().flat_map(|c| c.aspects.iter().map(move |a| (c, a))).collect();
     if all.is_empty() {
@@ -190,7 +243,7 @@ fn aspects(out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
     }
     write!(out, "{table}")?;
     if all.len() > LISTED {
-        writeln!(out, "  … and {} more: see --json or --out", all.len() - LISTED)?;
+        writeln!(out, "  … and {} more{}", all.len() - LISTED, advice.on_aspects)?;
     }
     Ok(())
 }

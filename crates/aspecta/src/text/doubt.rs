@@ -1,8 +1,8 @@
 //! Where the bounds on the number of aspects are apart, in the words and units of people.
 
-use aspecta::aspect::{Analysis, Doubt};
-use aspecta::kinematics::parallel_rods::ParallelRods;
-use aspecta::robot::Robot;
+use crate::aspect::{Analysis, Doubt};
+use aspecta_kinematics::parallel_rods::ParallelRods;
+use aspecta_robot::Robot;
 
 /// A coordinate of the place of a doubt.
 pub struct Coordinate {
