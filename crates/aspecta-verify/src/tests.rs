@@ -85,13 +85,21 @@ fn inside(certificate: &Certificate, sheet: usize, class: usize) -> Vec<Vec<f64>
 /// The verdict on a changed certificate is that it is wrong, for a reason that holds these words.
 #[track_caller]
 fn refuted(original: &Certificate, words: &str, change: impl FnOnce(&mut Certificate)) {
+    all_refuted(original, &[words], change);
+}
+
+/// The verdict on a certificate with several faults holds these words of each: one check instead of many.
+#[track_caller]
+fn all_refuted(original: &Certificate, words: &[&str], change: impl FnOnce(&mut Certificate)) {
     let mut certificate = original.clone();
     change(&mut certificate);
     let read = Certificate::from_json(certificate.to_json().unwrap().as_bytes()).unwrap();
     let verdict = checked(&read);
     assert!(verdict.complete && !verdict.is_verified());
     let found: Vec<String> = verdict.faults.iter().map(|f| f.in_words(&read.modes)).collect();
-    assert!(found.iter().any(|fault| fault.contains(words)), "{found:#?}");
+    for words in words {
+        assert!(found.iter().any(|fault| fault.contains(words)), "{words}: {found:#?}");
+    }
 }
 
 #[test]

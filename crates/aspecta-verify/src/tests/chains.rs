@@ -38,12 +38,11 @@ fn chains_are_checked() {
     refuted(&SPHERE, "claimed summitless, but P may have a maximum here", |c| {
         deny_summits(c, 1, !0);
     });
-    refuted(&SPHERE, "claimed to have at least 3 aspects, but proved to have at least 2", |c| {
-        c.claims[0].low = 3
-    });
-    refuted(&SPHERE, "claimed to have at most 1 aspect, but proved to have at most 2", |c| {
-        c.claims[0].high = Some(1)
-    });
+    let claims = [
+        "claimed to have at least 3 aspects, but proved to have at least 2",
+        "claimed to have at most 1 aspect, but proved to have at most 2",
+    ];
+    all_refuted(&SPHERE, &claims, |c| (c.claims[0].low, c.claims[1].high) = (3, Some(1)));
     let cut = |c: &mut Certificate| c.robot.window[0] = Some((-1.0, 1.0));
     refuted(&SPHERE, "the window is not the one", cut);
 }
@@ -132,9 +131,12 @@ fn paths_of_chains_are_checked() {
     let join = |sheet: usize, path: Vec<Vec<f64>>| {
         move |c: &mut Certificate| c.joins.push(Join { class: 0, sheet, path })
     };
-    refuted(&SPHERE, "is not proved to lie inside the class", join(1, vec![first.clone(), last.clone()]));
     // Where sin ψ = 0 the leg is at its serial singularity.
-    refuted(&SPHERE, "lies in no inside leaf of sheet 1", join(1, vec![vec![0.0; 3], last]));
+    let faults = ["is not proved to lie inside the class", "lies in no inside leaf of sheet 1"];
+    all_refuted(&SPHERE, &faults, |c| {
+        join(1, vec![first.clone(), last.clone()])(c);
+        join(1, vec![vec![0.0; 3], last])(c);
+    });
     let mut near = SPHERE.clone();
     let beside = first.iter().map(|x| x + 1e-6).collect();
     join(1, vec![first, beside])(&mut near);

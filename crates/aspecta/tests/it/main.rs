@@ -1,0 +1,29 @@
+//! The library as its users meet it, one module a subject: against closed forms, the paper's numbers, other people's methods
+//! and brute force.
+//!
+//! All are one binary, so that the library is linked once; `cargo test -p aspecta paper` runs one subject.
+
+mod aspects;
+mod catalogue;
+mod characteristic;
+mod check;
+mod counts;
+mod cusps;
+mod direct;
+mod domains;
+mod explore;
+mod follow;
+mod free_body;
+mod maps;
+mod motion;
+mod no_c;
+mod paper;
+mod paving;
+mod random;
+mod robot_files;
+mod singularity;
+mod slice_domains;
+mod slices;
+mod spatial;
+mod sweep;
+mod time;
