@@ -124,3 +124,7 @@ pub enum KinematicsError {
         robot: String,
     },
 }
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -162,3 +162,7 @@ fn check_legs(platform: Platform, kinds: &[Kind]) -> Result<(), RobotError> {
         }),
     }
 }
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -234,3 +234,7 @@ fn bounds(y: &Coordinates, count: usize) -> Vec<(f64, f64)> {
 fn point(x: &[f64]) -> Coordinates {
     std::array::from_fn(|k| Interval::point(x.get(k).copied().unwrap_or(0.0)))
 }
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

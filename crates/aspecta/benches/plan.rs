@@ -10,9 +10,9 @@ use aspecta::motion::modes::ModeGraph;
 use aspecta::motion::plan::{PlanOptions, Planner};
 use aspecta::paving::{Budget, Control};
 use aspecta::robot::catalogue;
+use aspecta::robot::work::Stopwatch;
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
-use std::time::Instant;
 
 /// Pairs per robot.
 const PAIRS: usize = 300;
@@ -43,9 +43,9 @@ fn plan(c: &mut Criterion) {
         let mut times = Vec::new();
         let mut joined = Vec::new();
         for pair in poses.chunks(2) {
-            let start = Instant::now();
+            let start = Stopwatch::start();
             if planner.plan(mode, &pair[0], &pair[1], &PlanOptions::default()).is_ok() {
-                times.push(start.elapsed().as_secs_f64() * 1e3);
+                times.push(start.seconds() * 1e3);
                 joined.push(pair);
             }
         }

@@ -5,10 +5,10 @@ use aspecta::Kinematics;
 use aspecta::kinematics::{KinematicsError, WorkingMode};
 use aspecta::paving::{Budget, Control, Mark, Paving};
 use aspecta::robot::Robot;
+use aspecta::robot::work::Stopwatch;
 use serde_json::json;
 use std::error::Error;
 use std::sync::atomic::AtomicBool;
-use std::time::Instant;
 
 /// Class bit of det A > 0 of the only mode paved.
 const DET_A_POSITIVE: u16 = 1;
@@ -27,9 +27,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let budget = Budget { depth: Some(depth.parse()?), ..Budget::default() };
     let control = Control { cancelled: &AtomicBool::new(false), progress: &|_| {} };
     let pave = || {
-        let start = Instant::now();
+        let start = Stopwatch::start();
         let paving = Paving::new(&robot, &window, &[mode], &budget, &control);
-        (start.elapsed().as_secs_f64(), paving)
+        (start.seconds(), paving)
     };
     let (mut seconds, paving) = pave();
     for _ in 1..repetitions.parse::<usize>()? {

@@ -62,6 +62,10 @@
 // A variant that is added leads to every place that must decide about it.
 #![warn(clippy::wildcard_enum_match_arm)]
 
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 pub mod aspect;
 pub mod domain;
 mod error;

@@ -134,3 +134,19 @@ fn kinds_are_named_here_and_by_the_checker_only() {
     }
     assert!(read > 200, "{read}");
 }
+
+/// Of all that a leg is asked, the checker asks for the leg equation alone: the rest is forbidden it.
+#[test]
+fn the_checker_may_use_the_leg_equation_alone() {
+    let forbidden = Path::new(env!("CARGO_MANIFEST_DIR")).join("../aspecta-verify/clippy.toml");
+    let forbidden = fs::read_to_string(forbidden).unwrap();
+    let questions = include_str!("mod.rs").split("\nquestions! {").nth(1).unwrap();
+    let questions = questions.split("\n}\n").next().unwrap();
+    let names: Vec<_> =
+        questions.lines().filter_map(|line| line.strip_prefix("    fn ")?.split(['(', '[']).next()).collect();
+    assert!(names.len() > 20 && names.contains(&"eliminate"), "{names:?}");
+    for name in names {
+        let may = name == "equation_turned";
+        assert_ne!(forbidden.contains(&format!("\"aspecta_robot::legs::Actuator::{name}\"")), may, "{name}");
+    }
+}

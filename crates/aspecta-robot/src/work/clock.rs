@@ -1,5 +1,7 @@
 //! Time, where there is a clock.
 
+#![allow(clippy::disallowed_types)] // all others use what is here
+
 /// A stopwatch. On WebAssembly without a system there is no clock: it stands at zero, and no time budget is ever spent.
 #[derive(Clone, Copy, Debug)]
 pub struct Stopwatch {

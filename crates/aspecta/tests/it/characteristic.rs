@@ -7,6 +7,7 @@ use aspecta::domain::characteristic::{Characteristic, CharacteristicError};
 use aspecta::kinematics::constraints::Constraint;
 use aspecta::num::without_turns;
 use aspecta::paving::{Budget, Control};
+use aspecta::robot::work::Stopwatch;
 use aspecta::robot::{Robot, catalogue};
 use std::collections::HashMap;
 use std::f64::consts::TAU;
@@ -297,7 +298,7 @@ fn three_rrr_characteristic_surface() {
     let analysis = analysis_of("3-rrr", &to_depth(6));
     let (class, of) = class_of(&analysis, "+++", DetSign::Positive);
     let boundary = Boundary::new(&analysis, of.aspects[0].id, 30).unwrap();
-    let start = std::time::Instant::now();
+    let start = Stopwatch::start();
     let surface = Characteristic::new(&analysis, &boundary).unwrap();
     report(&surface, start);
     assert!(surface.simplices.len() > 1000 && surface.given_up.unlocated * 20 < surface.vertices.len());
@@ -343,7 +344,7 @@ fn three_rpr_characteristic_surfaces() {
         let (class, of) = class_of(&analysis, "---", sign);
         let boundary = Boundary::new(&analysis, of.aspects[0].id, 30).unwrap();
         assert_closed(&boundary);
-        let start = std::time::Instant::now();
+        let start = Stopwatch::start();
         let surface = Characteristic::new(&analysis, &boundary).unwrap();
         eprintln!("{} aspects, at most {:?}, {} unplaced", of.low, of.high, boundary.unplaced);
         report(&surface, start);
@@ -381,14 +382,14 @@ fn surfaces_of_a_spherical_robot_hang_together() {
     assert!(tested > 1000, "{tested}");
 }
 
-fn report(surface: &Characteristic, start: std::time::Instant) {
+fn report(surface: &Characteristic, start: Stopwatch) {
     eprintln!(
-        "{} sources, {} vertices, {} simplices, {:?} in {:.2?}",
+        "{} sources, {} vertices, {} simplices, {:?} in {:.2} s",
         surface.sources.len(),
         surface.vertices.len(),
         surface.simplices.len(),
         surface.given_up,
-        start.elapsed()
+        start.seconds()
     );
 }
 

@@ -45,7 +45,10 @@ fn the_kernel_is_built_without_c() {
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let metadata: Value = serde_json::from_slice(&output.stdout).expect("cargo writes JSON");
     let kernel = built_of(&metadata, "aspecta");
-    assert!(kernel.contains_key("nalgebra") && !kernel.contains_key("proptest"));
+    for name in ["aspecta-robot", "aspecta-kinematics", "aspecta-verify", "nalgebra"] {
+        assert!(kernel.contains_key(name), "{name}");
+    }
+    assert!(!kernel.contains_key("proptest"));
     for (name, package) in &kernel {
         assert!(!TOOLS.contains(name), "{name} compiles C");
         assert!(package["links"].is_null() || *name == LINKS_NOTHING, "{name} links {}", package["links"]);
