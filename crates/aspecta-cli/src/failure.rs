@@ -15,7 +15,7 @@ use aspecta::robot::FileError;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// What a command that ran found.
+/// The outcome of a command that ran.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Answer {
     /// Exit status 0.
@@ -34,7 +34,7 @@ impl Answer {
 /// Why a command could not run: exit status 2, after the message on stderr.
 #[derive(Debug, thiserror::Error)]
 pub enum Failure {
-    /// What the user gave cannot be used; the message says where and what would do.
+    /// Input that cannot be used; the message says where, and what would do.
     #[error("{0}")]
     Input(String),
     /// The robot file.
@@ -78,7 +78,8 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// What an error of the file system in the directory of `--out` is to the user.
+    /// Returns the conversion of an error of the file system in the directory of `--out` into a message to
+    /// the user.
     pub fn in_directory(directory: &Path) -> impl Fn(io::Error) -> Self {
         move |error| Self::Directory { directory: directory.to_owned(), error }
     }

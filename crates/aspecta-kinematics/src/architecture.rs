@@ -9,14 +9,16 @@ use std::f64::consts::PI;
 const DRAWN: usize = 4000;
 /// Configurations that have to be singular, and not one regular.
 const SEEN: usize = 64;
-/// The greatest [`State::parallel_measure`](super::singularity::State::parallel_measure) that is taken for zero: some thousand roundings.
+/// The greatest [`State::parallel_measure`](super::singularity::State::parallel_measure) that is taken for
+/// zero: some thousand roundings.
 const ZERO: f64 = 1e-12;
 
-/// Whether det A vanishes at every configuration drawn at random, 64 or more of them, in every working mode there: two legs may be one and
-/// the same, or all joints of a platform in one line. *Numerical*, to 10⁻¹² of the homogeneous A. Such a robot moves with all actuators
-/// locked, and has no aspects.
+/// Whether det A vanishes at every configuration drawn at random, 64 or more of them, in every working mode
+/// there: two legs may be one and the same, or all joints of a platform in one line. *Numerical*, to 10⁻¹² of
+/// the homogeneous A. Such a robot moves with all actuators locked, and has no aspects.
 ///
-/// Poses are drawn in the robot's window, or, if it has none, within three characteristic lengths of the origin.
+/// Poses are drawn in the robot's window, or, if it has none, within three characteristic lengths of the
+/// origin.
 pub fn seems_architecturally_singular(robot: &Robot) -> bool {
     let window = robot.slice(&[]).ok();
     let mut random = Random::new(1);
@@ -60,8 +62,9 @@ mod tests {
         }
     }
 
-    /// Two legs in one place push in one direction if they are struts, and in opposite ones, which is no better, if they are spherical
-    /// with right angles. Other legs push in two directions where their postures differ.
+    /// Two legs in one place push in one direction if they are struts, and in opposite ones, which is no
+    /// better, if they are spherical with right angles. Other legs push in two directions where their
+    /// postures differ.
     #[test]
     fn robots_with_two_legs_in_one_are_if_these_push_alike() {
         for robot in all() {

@@ -1,12 +1,13 @@
 //! Charts: coordinates in which the robot in a working mode is described.
 //!
-//! The pose X is enough almost everywhere. It is not where a leg can fold its rod back onto its crank so that C comes to
-//! lie on the crank's axis: in the plane if L = M, at d = C − A = 0; in space if L ≤ M, at
-//! d = (0, 0, ±√(M² − L²)). There one pose has a whole circle of q_j, aspects that are apart in W × Q touch in W, and det A
-//! depends on the direction from which the point is approached. The leg's own coordinates open this up.
+//! The pose X is enough almost everywhere. It is not where a leg can fold its rod back onto its crank so that
+//! C comes to lie on the crank's axis: in the plane if L = M, at d = C − A = 0; in space if L ≤ M, at d = (0,
+//! 0, ±√(M² − L²)). There one pose has a whole circle of q_j, aspects that are apart in W × Q touch in W, and
+//! det A depends on the direction from which the point is approached. The leg's own coordinates open this up.
 //!
-//! Neither is it enough to turn about a point: roll and yaw are one at the poles of the pitch. There the joint angles of one leg,
-//! from the base to the platform, are coordinates of all configurations; and where another leg folds, its own are.
+//! Neither is it enough to turn about a point: roll and yaw are one at the poles of the pitch. There the
+//! joint angles of one leg, from the base to the platform, are coordinates of all configurations; and where
+//! another leg folds, its own are.
 
 mod bend;
 mod chain;
@@ -26,8 +27,8 @@ use aspecta_robot::{Robot, Window};
 
 /// A chart put to use: where a point of it puts the robot.
 pub trait Coordinates {
-    /// The placement of the platform and the state of the legs at the point `y` of the chart; `turn(k)` gives (sin, cos) of the
-    /// angle `y[k]`.
+    /// The placement of the platform and the state of the legs at the point `y` of the chart; `turn(k)` gives
+    /// (sin, cos) of the angle `y[k]`.
     fn at<T: Scalar, const D: usize, const N: usize>(
         &self,
         robot: &Robot,
@@ -105,11 +106,13 @@ fn moved_to<T: Scalar, const D: usize, const N: usize>(placement: &Placement<T, 
     each!(|k| if k < D { placement.origin()[k] } else { y[k] })
 }
 
-/// Least half-width of a fold's chart that is worth having, relative to the crank (of an elbow's angle, in rad).
+/// Least half-width of a fold's chart that is worth having, relative to the crank (of an elbow's angle, in
+/// rad).
 const LEAST: f64 = 1e-3;
 
-/// The charts that replace the pose where it is not enough: for a platform that turns about a point, if the window is all of its
-/// orientations, one leg's joint angles everywhere, and those of others where these fold; else the robot's folds.
+/// The charts that replace the pose where it is not enough: for a platform that turns about a point, if the
+/// window is all of its orientations, one leg's joint angles everywhere, and those of others where these
+/// fold; else the robot's folds.
 pub fn charts(robot: &Robot, window: &Window) -> Vec<Chart> {
     match chain::of(robot, window) {
         Some(chain) => {

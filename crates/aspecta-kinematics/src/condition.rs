@@ -1,12 +1,15 @@
-//! Determinants over boxes, conditioned: A Z instead of A, where Z makes A lower triangular at the boxes' middles.
+//! Determinants over boxes, conditioned: A Z instead of A, where Z makes A lower triangular at the boxes'
+//! middles.
 //!
-//! The minors of a 6 × 6 matrix cancel: products of the entries' ranges are much wider than the determinant's. With A = L U at the middle, by
-//! elimination with complete pivoting, and Z = U⁻¹ in doubles, A Z is nearly L, whose expansion has one large term. Whatever Z is,
+//! The minors of a 6 × 6 matrix cancel: products of the entries' ranges are much wider than the
+//! determinant's. With A = L U at the middle, by elimination with complete pivoting, and Z = U⁻¹ in doubles,
+//! A Z is nearly L, whose expansion has one large term. Whatever Z is,
 //!
 //! > det A · det Z = det(A Z),
 //!
-//! and Z is a permutation of columns times a triangular matrix exactly, so det Z is the product of its diagonal, up to the sign of the
-//! permutation. Complete pivoting leaves what nearly vanishes to the last column of Z, the only one that is large.
+//! and Z is a permutation of columns times a triangular matrix exactly, so det Z is the product of its
+//! diagonal, up to the sign of the permutation. Complete pivoting leaves what nearly vanishes to the last
+//! column of Z, the only one that is large.
 
 use aspecta_robot::num::{Interval, LANES, Pack, Scalar, Slope, each};
 
@@ -71,8 +74,8 @@ fn triangular<const N: usize>(mut a: [[f64; N]; N]) -> Option<([[f64; N]; N], In
             }
         }
     }
-    // a is U now. The columns of Z become those of U⁻¹: each is only added to later ones, so that Z stays triangular but for the order of its
-    // rows, and its diagonal holds what the columns were multiplied by.
+    // a is U now. The columns of Z become those of U⁻¹: each is only added to later ones, so that Z stays
+    // triangular but for the order of its rows, and its diagonal holds what the columns were multiplied by.
     for k in 0..N {
         let inverse = 1.0 / a[k][k];
         z.iter_mut().for_each(|line| line[k] *= inverse);

@@ -30,7 +30,7 @@ pub use unfold::Unfolding;
 /// Boxes that a search looks at unless told otherwise.
 pub const USUAL_BOXES: u64 = 1_000_000;
 
-/// What to look for.
+/// Options of the search for cusps.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
     /// The joints that are held: index from 0, and value (length unit or rad). n − 2 of them.
@@ -166,7 +166,8 @@ pub struct Cusp {
     pub kernel: Vec<f64>,
     /// Whether every joint is within its limits. Numerical.
     pub within_limits: bool,
-    /// What a small step in the joint space shows. Numerical; `None` if the direct model cannot tell, or there is none.
+    /// The change of the direct solutions by a small step in the joint space. Numerical; `None` if the direct
+    /// model cannot tell, or there is none.
     pub unfolding: Option<Unfolding>,
 }
 
@@ -205,7 +206,8 @@ pub enum Doubt {
     Cancelled,
 }
 
-/// All cusps of a plane robot (n = 2), or of a robot with n = 3 and one joint held, in its [`Window`].
+/// Returns all cusps of a plane robot (n = 2), or of a robot with n = 3 and one joint held, in its
+/// [`Window`].
 ///
 /// *Certified*: every cusp in the window, in the modes asked for, is in the list or in an undecided box. Cusps beyond joint
 /// limits are listed too where the window holds them.
@@ -317,7 +319,7 @@ fn find<const D: usize, const N: usize>(
     }
 }
 
-/// What there is to say of a cusp.
+/// Returns the description of a cusp: its pose, joints, proof and unfolding.
 fn described<const D: usize, const N: usize>(
     robot: &Robot,
     mode: WorkingMode,

@@ -8,7 +8,7 @@ use crate::Kinematics;
 use aspecta_robot::Robot;
 use aspecta_robot::num::Interval;
 
-/// What one leg allows at a pose.
+/// The inverse solutions of one leg at a pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LegSolutions {
     /// q for s = + and s = −; `None` where the posture does not exist (out of reach, or a strut's s = +).

@@ -1,4 +1,5 @@
-//! Minors of the rows of a matrix, shared by all that is made of them: determinants, cofactors, working modes.
+//! Minors of the rows of a matrix, shared by all that is made of them: determinants, cofactors, working
+//! modes.
 //!
 //! Nothing is divided, so all of it holds for enclosures.
 
@@ -8,7 +9,8 @@ use aspecta_robot::num::{Interval, Scalar};
 /// Sets of up to 6 columns, one bit each.
 const SETS: usize = 64;
 
-/// The minors of the first rows of an N × N matrix, by sets of columns: those sets count that have as many columns as there are rows.
+/// The minors of the first rows of an N × N matrix, by sets of columns: those sets count that have as many
+/// columns as there are rows.
 #[derive(Clone)]
 pub struct Minors<T, const N: usize> {
     rows: usize,
@@ -16,7 +18,7 @@ pub struct Minors<T, const N: usize> {
 }
 
 impl<T: Scalar, const N: usize> Minors<T, N> {
-    /// Those of no rows: the empty one is 1.
+    /// Returns the minors of no rows: the empty one is 1.
     pub fn none() -> Self {
         const { assert!(N <= 6, "sets of columns have up to 6 bits") }
         let mut of = [T::zero(); SETS];
@@ -24,7 +26,7 @@ impl<T: Scalar, const N: usize> Minors<T, N> {
         Self { rows: 0, of }
     }
 
-    /// Those with one row more, below the others: expanded along it.
+    /// Returns the minors with one row more, below the others, by expansion along it.
     pub fn with(&self, row: &[T; N]) -> Self {
         let mut next = Self { rows: self.rows + 1, of: [T::zero(); SETS] };
         for set in next.sets() {
@@ -66,7 +68,8 @@ pub fn determinant<T: Scalar, const N: usize>(m: &[[T; N]; N]) -> T {
 
 /// The cofactors: entry (j, i) is the derivative of the determinant with respect to `m[j][i]`.
 ///
-/// By Laplace: the minors of the rows above row j with those of the rows below it, over all ways to share the other columns.
+/// Returns the cofactors by Laplace's expansion: the minors of the rows above row j with those of the rows
+/// below it, over all ways to share the other columns.
 pub fn cofactors<T: Scalar, const N: usize>(m: &[[T; N]; N]) -> [[T; N]; N] {
     let mut below = ArrayVec::<Minors<T, N>, N>::new();
     below.push(Minors::none());

@@ -1,7 +1,7 @@
 //! The robot in a working mode: a configuration is a function of the pose alone.
 //!
-//! In mode s the inverse model is closed form, so reachabilities H_j, joint limits c_k and det A are functions
-//! of X. All working modes share everything but signs: row j of A, times the leg's weight > 0, is
+//! In mode s the inverse model is closed form, so reachabilities H_j, joint limits c_k and det A are
+//! functions of X. All working modes share everything but signs: row j of A, times the leg's weight > 0, is
 //! fixed_j + s_j swing_j, so that weighted det A is multi-affine in the signs.
 
 use super::WorkingMode;
@@ -37,8 +37,8 @@ pub struct LegClosure<T, const D: usize> {
     pub span: [T; D],
     /// The leg equation with q eliminated.
     pub closure: Closure<T, D>,
-    /// The leg's own state, where its own coordinates are used: B then has one sign at a point, and `closure` no part that
-    /// changes sign.
+    /// The leg's own state, where its own coordinates are used: B then has one sign at a point, and `closure`
+    /// no part that changes sign.
     pub fold: Option<Folded<T>>,
 }
 
@@ -75,7 +75,7 @@ impl<T: Scalar, const D: usize> LegClosure<T, D> {
         self.fold.is_none() && leg.actuator.is_angle()
     }
 
-    /// The same in another scalar.
+    /// Converts the closure to another scalar.
     pub fn map<U: Scalar>(&self, to: impl Fn(T) -> U) -> LegClosure<U, D> {
         let vector = |v: &[T; D]| each!(|k| to(v[k]));
         let Closure { reach, weight, fixed, swing } = &self.closure;
@@ -96,9 +96,9 @@ impl<T: Scalar, const D: usize> LegClosure<T, D> {
 /// The rows of weighted A for both postures of every leg.
 #[derive(Clone, Copy, Debug)]
 pub struct ModalRows<T, const N: usize> {
-    /// What the postures share.
+    /// The part that both postures share.
     pub fixed: [[T; N]; N],
-    /// What changes sign, times h.
+    /// The part that changes sign with the posture, times h.
     pub swing: [[T; N]; N],
 }
 
@@ -157,8 +157,8 @@ impl<T: Scalar, const N: usize> ModalRows<T, N> {
         }
     }
 
-    /// The same, leg by leg from leg j on, with the minors of the rows before: modes share those of the first legs, in which they
-    /// agree if they follow one another in Gray's order.
+    /// Visits the determinants leg by leg from leg j on, with the minors of the rows before: modes share
+    /// those of the first legs, in which they agree if they follow one another in Gray's order.
     fn dets_below(
         &self,
         modes: &[WorkingMode],
@@ -191,8 +191,8 @@ impl<T: Scalar, const N: usize> ModalRows<T, N> {
 }
 
 impl<const N: usize, const M: usize> ModalRows<Slope<Pack, M>, N> {
-    /// The range of [`ModalRows::det`] over eight boxes, times some positive number: more work, but mostly much narrower where N > 3
-    /// (the module `condition`).
+    /// The range of [`ModalRows::det`] over eight boxes, times some positive number: more work, but mostly
+    /// much narrower where N > 3 (the module `condition`).
     pub fn conditioned_det(&self, mode: WorkingMode) -> Pack {
         let rows: [[_; N]; N] = std::array::from_fn(|j| self.row(j, mode.sign(j)));
         let by = Conditioner::new(&rows);

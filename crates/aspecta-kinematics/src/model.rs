@@ -8,7 +8,7 @@ use aspecta_robot::{Robot, WorkingMode};
 
 /// The inverse and the direct geometric model of a robot, its Jacobians and its singularities.
 pub trait Kinematics {
-    /// All inverse solutions of `pose` within reach, one per working mode, in the order of
+    /// Returns all inverse solutions of `pose` within reach, one per working mode, in the order of
     /// [`Robot::working_modes`]; empty if the pose is out of reach. Solutions beyond joint limits are
     /// listed too, with `within_limits` false.
     ///
@@ -51,7 +51,7 @@ pub trait Kinematics {
     /// ```
     fn inverse_in(&self, pose: &[f64], mode: WorkingMode) -> Result<Option<Vec<f64>>, KinematicsError>;
 
-    /// What each leg allows at `pose`.
+    /// Returns the inverse solutions of each leg at `pose`.
     ///
     /// # Errors
     /// [`KinematicsError`] if `pose` has the wrong length or is not finite.
@@ -87,8 +87,8 @@ pub trait Kinematics {
     /// ```
     fn out_of_reach(&self, pose: &[f64]) -> Result<Vec<OutOfReach>, KinematicsError>;
 
-    /// All real poses X with f(X, q) = 0: the direct solutions of q in every working mode. Solutions beyond joint
-    /// limits are listed too, with `within_limits` false.
+    /// Returns all real poses X with f(X, q) = 0: the direct solutions of q in every working mode. Solutions
+    /// beyond joint limits are listed too, with `within_limits` false.
     ///
     /// *Certified* means: there is a box round the pose in which the Krawczyk operator proves exactly one
     /// solution, for every q within a few units in the last place (for bodies that turn in space a ball in homogeneous coordinates, and a

@@ -11,8 +11,8 @@ use serde::Serialize;
 pub struct OutOfReach {
     /// Leg number, from 1.
     pub leg: usize,
-    /// By how much its rod is too short or too long to join its ends, > 0: a length, or an angle (rad) for
-    /// spherical legs. Numerical.
+    /// The amount by which its rod is too short or too long to join its ends, > 0: a length, or an angle
+    /// (rad) for spherical legs. Numerical.
     pub gap: f64,
     /// Whether `gap` is an angle.
     pub angle: bool,

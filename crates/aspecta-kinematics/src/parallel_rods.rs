@@ -1,4 +1,5 @@
-//! Where three or more rods of a translating platform can all be parallel: a surface on which det A vanishes to higher order.
+//! Surfaces on which three or more rods of a translating platform are parallel: there det A vanishes to
+//! higher order.
 
 use super::placement::Placement;
 use aspecta_robot::legs::{Elbow, RigidRod};
@@ -9,16 +10,19 @@ use serde::Serialize;
 
 /// Legs with equal rods whose elbows can coincide once each is moved back by −C_i.
 ///
-/// A translating platform reaches X with f_i = ‖X − P_i(q_i)‖² − M², where P_i = B_i − C_i runs on a circle (a line for sliders). If m
-/// of these meet in a point P, then with the joints standing there X may be anywhere on the sphere round P with radius M: the
-/// m rods are parallel, A has rank n − m + 1, and det A vanishes to order m − 1, on a surface, in each working mode on a part of it. For m ≥ 3 its sign need not
-/// change there, and 0 is no regular value of it (docs/theory.md, section 5): no paving decides the boxes on the sphere.
+/// A translating platform reaches X with f_i = ‖X − P_i(q_i)‖² − M², where P_i = B_i − C_i runs on a circle
+/// (a line for sliders). If m of these meet in a point P, then with the joints standing there X may be
+/// anywhere on the sphere round P with radius M: the m rods are parallel, A has rank n − m + 1, and det A
+/// vanishes to order m − 1, on a surface, in each working mode on a part of it. For m ≥ 3 its sign need not
+/// change there, and 0 is no regular value of it (docs/theory.md, section 5): no paving decides the boxes on
+/// the sphere.
 ///
-/// A free body that keeps its orientation reaches X in the same way, its arms turned. Its wrenches (u, r_i × u) along m parallel rods have rank 3
-/// at most, so det A vanishes to order m − 3: for m ≥ 5 to the second order and more.
+/// A free body that keeps its orientation reaches X in the same way, its arms turned. Its wrenches (u, r_i ×
+/// u) along m parallel rods have rank 3 at most, so det A vanishes to order m − 3: for m ≥ 5 to the second
+/// order and more.
 ///
-/// Every Delta whose legs are placed symmetrically round an axis has two such points on it, if its cranks are long enough and not
-/// kept from pointing there by their limits.
+/// Every Delta whose legs are placed symmetrically round an axis has two such points on it, if its cranks are
+/// long enough and not kept from pointing there by their limits.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ParallelRods {
     /// The legs, from 1.
@@ -27,7 +31,7 @@ pub struct ParallelRods {
     pub centre: [f64; 3],
     /// M: the poses are those at this distance from P.
     pub radius: f64,
-    /// Where the legs' joints stand (rad or length unit).
+    /// The joint vector (rad or length unit).
     pub q: Vec<f64>,
     /// The order to which det A vanishes there, at least.
     pub order: usize,
@@ -36,9 +40,9 @@ pub struct ParallelRods {
 /// How far from each other, relative to the rod, curves may pass and still count as meeting.
 const TOLERANCE: f64 = 1e-9;
 
-/// All sets of legs of a robot that can have parallel rods within the limits of their actuators, three or more of a translating
-/// platform, five or more of a free one in a slice of fixed orientation. Numerical: curves closer than 10⁻⁹ rods are said to meet.
-/// Empty for other platforms and slices.
+/// Returns all sets of legs of a robot that can have parallel rods within the limits of their actuators,
+/// three or more of a translating platform, five or more of a free one in a slice of fixed orientation.
+/// Numerical: curves closer than 10⁻⁹ rods are said to meet. Empty for other platforms and slices.
 pub fn parallel_rods(robot: &Robot, window: &Window) -> Vec<ParallelRods> {
     let still: Vec<f64> = window.ranges.iter().map(|r| r.0).collect();
     let (placement, least) = match robot.platform {

@@ -1,4 +1,4 @@
-//! Where the platform puts the attachment points, and how a force at one acts on the platform.
+//! The positions of the attachment points, and the wrench of a force at one of them on the platform.
 
 use super::minors;
 use aspecta_robot::num::{Interval, Jet, Scalar, dot, dot_constant, each, without_turns};
@@ -33,8 +33,8 @@ impl<T: Scalar, const D: usize> Placement<T, D> {
         }
     }
 
-    /// The placement that puts the end of `leg` at d = C − A = `span` (base frame); `turn` as in [`Placement::new`]. For platforms that
-    /// can be moved anywhere without turning.
+    /// The placement that puts the end of `leg` at d = C − A = `span` (base frame); `turn` as in
+    /// [`Placement::new`]. For platforms that can be moved anywhere without turning.
     pub fn with_end(platform: Platform, leg: &Leg, span: &[T; D], turn: impl Fn(usize) -> (T, T)) -> Self {
         let still = [T::zero(); D];
         let mut placement = Self::new(platform, &still, turn);
@@ -46,7 +46,8 @@ impl<T: Scalar, const D: usize> Placement<T, D> {
         placement
     }
 
-    /// The placement about the fixed point that takes the orthonormal axes `body` of the platform to those in `base`.
+    /// The placement about the fixed point that takes the orthonormal axes `body` of the platform to those in
+    /// `base`.
     pub fn taking(body: &[[Interval; 3]; 3], base: &[[T; D]; 3]) -> Self {
         let mut rotation = [[T::zero(); D]; D];
         for k in 0..D {
@@ -57,8 +58,9 @@ impl<T: Scalar, const D: usize> Placement<T, D> {
     }
 
     /// The placement displaced by `z`: moved by its translations and then, about its own origin, turned by
-    /// R_z R_y R_x of its angles (by the angle, in the plane) in the axes of the base. `turn[k]` holds (sin, cos) of the angle z_k. Near z = 0 these
-    /// are coordinates of the poses without any singularity; see [`displacement_row`].
+    /// R_z R_y R_x of its angles (by the angle, in the plane) in the axes of the base. `turn[k]` holds (sin,
+    /// cos) of the angle z_k. Near z = 0 these are coordinates of the poses without any singularity; see
+    /// [`displacement_row`].
     pub fn displaced<const N: usize>(&self, platform: Platform, z: &[T; N], turn: &[(T, T); N]) -> Self {
         let Self { origin, rotation } = Self::new(platform, z, |k| turn[k]);
         let rotation = match (&rotation, &self.rotation) {
@@ -75,7 +77,7 @@ impl<T: Scalar, const D: usize> Placement<T, D> {
         Self { origin: each!(|k| self.origin[k] + origin[k]), rotation }
     }
 
-    /// The same placement in another scalar.
+    /// Converts the placement to another scalar.
     pub fn map<U: Scalar>(&self, to: impl Fn(T) -> U) -> Placement<U, D> {
         let rotation = self.rotation.as_ref().map(|rows| {
             let mut all = [[U::zero(); D]; D];
@@ -92,7 +94,7 @@ impl<T: Scalar, const D: usize> Placement<T, D> {
         self.rotation.as_ref()
     }
 
-    /// Where the platform's own origin is.
+    /// Returns the position of the platform's own origin.
     pub fn origin(&self) -> &[T; D] {
         &self.origin
     }
@@ -128,7 +130,8 @@ impl<T: Scalar, const D: usize> Placement<T, D> {
     }
 }
 
-/// A − c. A point platform has c = 0, which costs nothing; 0 − 0, rounded outward, would be subnormal and slow.
+/// A − c. A point platform has c = 0, which costs nothing; 0 − 0, rounded outward, would be subnormal and
+/// slow.
 fn offset(leg: &Leg, k: usize) -> Interval {
     if leg.attachment[k] == Interval::point(0.0) { leg.anchor[k] } else { leg.anchor[k] - leg.attachment[k] }
 }
@@ -146,7 +149,8 @@ fn spatial<T: Scalar, const D: usize>(turn: impl Fn(usize) -> (T, T), first: usi
     std::array::from_fn(|i| std::array::from_fn(|j| rows[i][j]))
 }
 
-/// The angles of R = R_z(yaw) R_y(pitch) R_x(roll), for D = 3. At pitch = ±90°, where only roll ∓ yaw is determined, yaw is 0.
+/// The angles of R = R_z(yaw) R_y(pitch) R_x(roll), for D = 3. At pitch = ±90°, where only roll ∓ yaw is
+/// determined, yaw is 0.
 pub fn roll_pitch_yaw<const D: usize>(r: &[[f64; D]; D]) -> [f64; 3] {
     let low = D - 1;
     let level = r[0][0].hypot(r[1][0]);
@@ -154,7 +158,8 @@ pub fn roll_pitch_yaw<const D: usize>(r: &[[f64; D]; D]) -> [f64; 3] {
     if level < 4.0 * f64::EPSILON {
         return [(-r[1][low]).atan2(r[1][1]), pitch, 0.0];
     }
-    // With yaw undone the second row is (0, cos roll, −sin roll): accurate near the pole too, where yaw is not.
+    // With yaw undone the second row is (0, cos roll, −sin roll): accurate near the pole too, where yaw is
+    // not.
     let yaw = r[1][0].atan2(r[0][0]);
     let (s, c) = yaw.sin_cos();
     let row = |k: usize| c * r[1][k] - s * r[0][k];
@@ -208,8 +213,9 @@ pub fn wrench<T: Scalar, const D: usize, const N: usize>(
     row
 }
 
-/// The derivatives with respect to the coordinates z of [`Placement::displaced`], from the derivatives `row` with respect to
-/// translations and the angular velocity ([`wrench`]), at the displacement whose angles have the (sin, cos) `turn`.
+/// The derivatives with respect to the coordinates z of [`Placement::displaced`], from the derivatives `row`
+/// with respect to translations and the angular velocity ([`wrench`]), at the displacement whose angles have
+/// the (sin, cos) `turn`.
 ///
 /// R_z R_y R_x at rates ż turns with ω = R_z R_y e_x ż_x + R_z e_y ż_y + e_z ż_z.
 pub fn displacement_row<T: Scalar, const N: usize>(

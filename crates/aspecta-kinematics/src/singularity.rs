@@ -14,7 +14,7 @@ use serde::Serialize;
 /// themselves computed. *Numerical*: to prove the absence of singularities is the work of intervals.
 pub const SINGULAR: f64 = 1e-6;
 
-/// Where a configuration stands with respect to Definitions 3 and 4, at the tolerance [`SINGULAR`].
+/// The kind of singularity of a configuration (Definitions 3 and 4), at the tolerance [`SINGULAR`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Singularity {

@@ -1,12 +1,13 @@
 //! Charts: coordinates in which the robot in a working mode is described.
 //!
-//! The pose X is enough almost everywhere. It is not where a leg can fold its rod back onto its crank so that C comes to
-//! lie on the crank's axis: in the plane if L = M, at d = C − A = 0; in space if L ≤ M, at
-//! d = (0, 0, ±√(M² − L²)). There one pose has a whole circle of q_j, aspects that are apart in W × Q touch in W, and det A
-//! depends on the direction from which the point is approached. The leg's own coordinates open this up.
+//! The pose X is enough almost everywhere. It is not where a leg can fold its rod back onto its crank so that
+//! C comes to lie on the crank's axis: in the plane if L = M, at d = C − A = 0; in space if L ≤ M, at d = (0,
+//! 0, ±√(M² − L²)). There one pose has a whole circle of q_j, aspects that are apart in W × Q touch in W, and
+//! det A depends on the direction from which the point is approached. The leg's own coordinates open this up.
 //!
-//! Neither is it enough to turn about a point: roll and yaw are one at the poles of the pitch. There the joint angles of one leg,
-//! from the base to the platform, are coordinates of all configurations; and where another leg folds, its own are.
+//! Neither is it enough to turn about a point: roll and yaw are one at the poles of the pitch. There the
+//! joint angles of one leg, from the base to the platform, are coordinates of all configurations; and where
+//! another leg folds, its own are.
 
 use crate::num::{Interval, Scalar, cross};
 use crate::{Robot, Window};
@@ -71,16 +72,16 @@ impl Chart {
 /// The configurations in which one revolute leg is nearly folded.
 ///
 /// Coordinates: the crank's angle q_j = α; p, the rod's direction along the crank's direction of motion; in
-/// space also w, its direction along the crank's axis; then the platform's angle, if it has one. In the crank's frame
-/// (radial, tangential, axial) the rod points along
+/// space also w, its direction along the crank's axis; then the platform's angle, if it has one. In the
+/// crank's frame (radial, tangential, axial) the rod points along
 ///
 /// > u = (−√(1 − p² − w²), p, w),  d = L e_radial + M u,  ∂f/∂C = 2M u,  B_jj = ∂f/∂q = −2LM p.
 ///
-/// Nothing here has a root that vanishes: leg j's serial singularity is the coordinate plane p = 0, its posture is the
-/// sign of −p, and its row of A is smooth across both.
+/// Nothing here has a root that vanishes: leg j's serial singularity is the coordinate plane p = 0, its
+/// posture is the sign of −p, and its row of A is smooth across both.
 ///
 /// The chart covers, in W, exactly the poses with ‖d‖² < L² + M², H_j ≤ (2LM p₀)² and, in space,
-/// γ/M in the range of w ([`Fold::cover`]): M u_radial = (‖d‖² − L² − M²)/2L, H_j = (2LM p)² and γ = M w.
+/// γ/M in the range of w (`Fold::cover`): M u_radial = (‖d‖² − L² − M²)/2L, H_j = (2LM p)² and γ = M w.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Fold {
@@ -98,8 +99,9 @@ pub struct Fold {
 
 /// One leg j of a platform that turns about a point, from the base to the platform.
 ///
-/// Coordinates: the motor's angle q_j, the elbow's angle ψ, the angle ϑ of the platform about its joint; all full turns. Let w be the
-/// elbow's axis, t the direction in which the motor moves it and n = t × w, so that in the leg's frame
+/// Coordinates: the motor's angle q_j, the elbow's angle ψ, the angle ϑ of the platform about its joint; all
+/// full turns. Let w be the elbow's axis, t the direction in which the motor moves it and n = t × w, so that
+/// in the leg's frame
 ///
 /// > w = (sin a cos q, sin a sin q, cos a),  n = (cos a cos q, cos a sin q, −sin a),  t = (−sin q, cos q, 0),
 ///
@@ -107,35 +109,36 @@ pub struct Fold {
 ///
 /// > v = cos b w + sin b (cos ψ n + sin ψ t),  ∂f/∂v = w,  B_jj = ∂f/∂q = sin a sin b sin ψ.
 ///
-/// These are coordinates of all (X, q_j), in both postures of the leg, without any singularity: no poles of the pitch, no fold, no root;
-/// the leg's serial singularities are ψ = 0 and ψ = π.
+/// These are coordinates of all (X, q_j), in both postures of the leg, without any singularity: no poles of
+/// the pitch, no fold, no root; the leg's serial singularities are ψ = 0 and ψ = π.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Chain {
     /// Leg j, from 0.
     pub leg: usize,
-    /// What part of the configurations the chart holds: all if `None`.
+    /// The part of the configurations that the chart holds; `None` if it holds all.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bend: Option<Bend>,
 }
 
-/// The configurations in which the elbow is near an end of its way. The chart's second coordinate is then ψ less ψ₀, 0 or π.
+/// The configurations in which the elbow is near an end of its way. The chart's second coordinate is then ψ
+/// less ψ₀, 0 or π.
 ///
-/// It covers exactly the orientations with ±e·v ≥ ±cos a cos b + sin a sin b cos(half width), + for ψ₀ = π, since
-/// e·v = cos a cos b − sin a sin b cos ψ, e being the motor's axis.
+/// It covers exactly the orientations with ±e·v ≥ ±cos a cos b + sin a sin b cos(half width), + for ψ₀ = π,
+/// since e·v = cos a cos b − sin a sin b cos ψ, e being the motor's axis.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bend {
-    /// Whether ψ₀ = π, where the distal link lies back along the proximal one and v is nearest to the motor's axis; or ψ₀ = 0, where it is
-    /// nearest to the opposite of that axis.
+    /// Whether ψ₀ = π, where the distal link lies back along the proximal one and v is nearest to the motor's
+    /// axis; or ψ₀ = 0, where it is nearest to the opposite of that axis.
     pub back: bool,
     /// The chart holds −half_width ≤ ψ − ψ₀ ≤ half_width (rad).
     pub half_width: f64,
 }
 
 impl Chain {
-    /// Right-handed orthonormal axes of the platform: those that lie along m, sin b w − cos b (cos ψ n + sin ψ t) and v where ϑ = 0, with
-    /// m = cos ψ t − sin ψ n.
+    /// Right-handed orthonormal axes of the platform: those that lie along m, sin b w − cos b (cos ψ n + sin
+    /// ψ t) and v where ϑ = 0, with m = cos ψ t − sin ψ n.
     pub fn body(&self, robot: &Robot) -> [[Interval; 3]; 3] {
         axes_about(&robot.legs[self.leg].attachment)
     }

@@ -1,6 +1,7 @@
 //! The sizes that pavings and certificates have in common.
 
-/// A set of classes of aspects, one bit each: bit 2m for mode m and det A > 0, bit 2m + 1 for mode m and det A < 0.
+/// A set of classes of aspects, one bit each: bit 2m for mode m and det A > 0, bit 2m + 1 for mode m and det
+/// A < 0.
 pub type ClassSet = u16;
 
 /// The greatest number of working modes that one paving, or one certificate, describes.

@@ -32,7 +32,7 @@ pub struct Leg {
     pub attachment: [Interval; 3],
     /// The leg's own frame, in which its actuator is described.
     pub frame: Frame,
-    /// What drives the leg.
+    /// The actuator that drives the leg, with the lengths of its links.
     pub actuator: Actuator,
     /// Limits of its actuated and passive joints.
     pub limits: Vec<Limit>,
@@ -67,7 +67,7 @@ pub enum Limit {
         /// cos of its half-width.
         half_cos: Interval,
     },
-    /// The same angle in space, where it has no sign: between min and max in [0, π].
+    /// The elbow angle in space, where it has no sign: between min and max in [0, π].
     SpatialElbow {
         /// cos of the smallest angle.
         min_cos: Interval,

@@ -58,7 +58,7 @@ pub struct Robot {
     pub name: String,
     /// One line for people.
     pub title: String,
-    /// Where the figures come from.
+    /// The source of the figures.
     pub source: String,
     /// The unit of all lengths, for people (`mm`, `m`, …); the arithmetic does not use it.
     pub length_unit: String,
@@ -92,7 +92,7 @@ pub enum RobotError {
         actuator: &'static str,
         /// The platform.
         platform: Platform,
-        /// What would go.
+        /// Advice on what would fit.
         hint: &'static str,
     },
 }

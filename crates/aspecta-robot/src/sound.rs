@@ -17,13 +17,13 @@ pub enum Unsound {
     Leg {
         /// Leg number, from 1.
         leg: usize,
-        /// What is wrong.
+        /// The fault.
         what: &'static str,
     },
     /// A number of entries that is not the one wanted.
     #[error("{what}: {found} entries where {wanted} are wanted")]
     Count {
-        /// Of what.
+        /// The quantity.
         what: &'static str,
         /// How many there are.
         found: usize,
@@ -33,7 +33,7 @@ pub enum Unsound {
     /// An index beyond the end.
     #[error("{what} {index}: there is none")]
     Index {
-        /// Of what.
+        /// The quantity.
         what: &'static str,
         /// The index, from 0.
         index: usize,
@@ -98,7 +98,7 @@ pub fn sane(x: &Interval) -> bool {
     usable(x.lo) && usable(x.hi) && x.lo <= x.hi
 }
 
-/// What is wrong with a leg, if anything is.
+/// Returns the fault of a leg, if it has one.
 fn fault_of_leg(leg: &Leg, platform: Platform) -> Option<&'static str> {
     if !leg.anchor.iter().chain(&leg.attachment).chain(leg.frame.as_flattened()).all(sane) {
         return Some(
@@ -139,7 +139,8 @@ fn fault_of_leg(leg: &Leg, platform: Platform) -> Option<&'static str> {
     };
     if !fit {
         return Some(
-            "a link length is not positive, not finite, beyond 1e7, or an empty range, or an angle is none",
+            "a link length is not positive, not finite, beyond 1e7, or an empty range, \
+             or an angle of a link is not within (0, π)",
         );
     }
     let all = leg.limits.iter().all(|limit| is_limit(limit, &leg.actuator, platform.space()));
@@ -155,7 +156,7 @@ fn is_circular((cos, sin): &(Interval, Interval)) -> bool {
     sane(cos) && sane(sin) && is_about(cos.square() + sin.square(), 1.0)
 }
 
-/// What a leg has that can be limited, and where it stands.
+/// The quantities of a leg that can be limited.
 pub struct Takes {
     /// A driven angle; else a driven length.
     pub angle: bool,
@@ -169,7 +170,7 @@ pub struct Takes {
     pub on_sphere: bool,
 }
 
-/// What a leg of the kind has.
+/// Returns the quantities that can be limited on a leg of this kind.
 pub fn takes(actuator: &Actuator) -> Takes {
     let nothing = Takes { angle: false, positive: false, elbow: false, rod: false, on_sphere: false };
     match actuator {

@@ -112,7 +112,8 @@ impl Window {
         self.ranges.iter().enumerate().filter(|(_, r)| r.0 == r.1).map(|(k, r)| (k, r.0))
     }
 
-    /// Whether a pose lies in it. It is convex, but for coordinates that are glued, along which it has no ends.
+    /// Whether a pose lies in it. It is convex, but for coordinates that are glued, along which it has no
+    /// ends.
     pub fn holds(&self, pose: &[f64]) -> bool {
         pose.iter().enumerate().all(|(k, &x)| self.fraction(k, x).is_some())
     }
@@ -122,8 +123,8 @@ impl Window {
         (0..self.ranges.len()).filter(|&k| self.ranges[k].0 < self.ranges[k].1).collect()
     }
 
-    /// Line `index` of 2^depth equal parts of coordinate k. The same line has the same double at every depth, so
-    /// cells of all depths fit without gaps.
+    /// Line `index` of 2^depth equal parts of coordinate k. The same line has the same double at every depth,
+    /// so cells of all depths fit without gaps.
     pub fn grid_line(&self, k: usize, index: u32, depth: u32) -> f64 {
         let (lo, hi) = self.ranges[k];
         if index == 1 << depth {
@@ -133,8 +134,8 @@ impl Window {
         lo + (hi - lo) * part
     }
 
-    /// Where in the range of coordinate k the value lies, in [0, 1]; `None` if outside. A coordinate that is held has
-    /// one value, whose place is 0.
+    /// Returns the share, in [0, 1], of the range of coordinate k that lies below the value; `None` outside.
+    /// A fixed coordinate has one value, whose share is 0.
     pub fn fraction(&self, k: usize, x: f64) -> Option<f64> {
         let (lo, hi) = self.ranges[k];
         if lo == hi {
@@ -149,8 +150,8 @@ impl Window {
         pose.iter().enumerate().map(|(k, &x)| self.turned_in(k, x)).collect()
     }
 
-    /// `x`, or, if coordinate k is an angle that lies in the window but for full turns, the angle in the window. A
-    /// held angle is met if x is a full turn away from it up to the rounding of either.
+    /// `x`, or, if coordinate k is an angle that lies in the window but for full turns, the angle in the
+    /// window. A held angle is met if x is a full turn away from it up to the rounding of either.
     pub fn turned_in(&self, k: usize, x: f64) -> f64 {
         let (lo, hi) = self.ranges[k];
         if !self.angles[k] || (lo..=hi).contains(&x) {

@@ -1,7 +1,7 @@
 //! The robot at a configuration: f, ∂f/∂q, the row of A, H and the limits of each leg, from coordinates.
 //!
-//! Written for any scalar and independently of `kinematics`, but for the leg equation itself. Points have D = 2 or 3
-//! coordinates; there are up to six legs and coordinates, and entries beyond are zero.
+//! Written for any scalar and independently of `kinematics`, but for the leg equation itself. Points have D =
+//! 2 or 3 coordinates; there are up to six legs and coordinates, and entries beyond are zero.
 
 mod chain;
 mod kinds;
@@ -107,7 +107,7 @@ impl<'a, T: Scalar, const D: usize> Body<'a, T, D> {
         body
     }
 
-    /// Where the platform's origin is.
+    /// Returns the position of the platform's origin.
     pub(super) fn origin(&self) -> &[T; D] {
         &self.origin
     }
@@ -146,7 +146,8 @@ impl<'a, T: Scalar, const D: usize> Body<'a, T, D> {
         into_frame(leg, &std::array::from_fn(|k| self.origin[k] + offset[k]))
     }
 
-    /// How the end of leg j moves as the platform does, in the leg's frame: one velocity per column of A.
+    /// Returns how the end of leg j moves as the platform does, in the leg's frame: one velocity per column
+    /// of A.
     fn velocities(&self, j: usize) -> [[T; D]; MOST] {
         let leg = &self.robot.legs[j];
         let (zero, one) = (T::zero(), T::constant(Interval::point(1.0)));
@@ -183,12 +184,13 @@ impl<'a, T: Scalar, const D: usize> Body<'a, T, D> {
         kinds::reach(&self.robot.legs[j].actuator, d)
     }
 
-    /// Leg j with q given, at C − A = `span`. Where the leg's own coordinates are used q is one of them, and `q` is not looked at.
+    /// Leg j with q given, at C − A = `span`. Where the leg's own coordinates are used q is one of them, and
+    /// `q` is not looked at.
     pub(super) fn leg(&self, j: usize, span: &[T; D], q: T) -> LegState<T> {
         let leg = &self.robot.legs[j];
         let velocities = self.velocities(j);
-        // f does not change if d and q turn together about the crank's axis: a leg in its own coordinates is looked at in its crank's frame,
-        // where q = 0.
+        // f does not change if d and q turn together about the crank's axis: a leg in its own coordinates is
+        // looked at in its crank's frame, where q = 0.
         let (d, moves, at) = match self.own_of(j) {
             Some(f) => (f.span, velocities.map(|v| turned(f.cos, -f.sin, &v)), T::zero()),
             None => (*span, velocities, q),
@@ -205,7 +207,7 @@ impl<'a, T: Scalar, const D: usize> Body<'a, T, D> {
         LegState { equation: f.value, slope, row, limits }
     }
 
-    /// How far inside a limit leg j is: a function of the configuration, positive strictly inside.
+    /// Returns how far inside a limit leg j is: a function of the configuration, positive strictly inside.
     fn margin(&self, j: usize, limit: &Limit, d: &[T; D], q: T, slope: T) -> T {
         let leg = &self.robot.legs[j];
         let constant = |c: Interval| T::constant(c);

@@ -47,8 +47,8 @@ impl Cells {
         }
     }
 
-    /// Line `index` of 2^depth equal parts of a range. The same line is the same double at every depth, so cells fit
-    /// without gaps.
+    /// Line `index` of 2^depth equal parts of a range. The same line is the same double at every depth, so
+    /// cells fit without gaps.
     fn line(&self, k: usize, index: u32, depth: u32) -> f64 {
         let (lo, hi) = self.window.ranges[k];
         let parts = 1u32 << depth;
@@ -98,7 +98,8 @@ impl Cells {
         }
     }
 
-    /// Visits the leaves that share a point with a leaf, across glued coordinates too; itself among them, some more than once.
+    /// Visits the leaves that share a point with a leaf, across glued coordinates too; itself among them,
+    /// some more than once.
     pub(super) fn touching(&self, leaf: usize, visit: &mut impl FnMut(usize)) {
         let extent = |corner: u32, depth: u32| {
             let cell = 1i64 << (DEEPEST - depth);
@@ -121,7 +122,8 @@ impl Cells {
         }
     }
 
-    /// Visits the leaves that may share a point with a box of coordinates, angles counting modulo full turns where they are glued.
+    /// Visits the leaves that may share a point with a box of coordinates, angles counting modulo full turns
+    /// where they are glued.
     pub(super) fn meeting(&self, y: &Coordinates, visit: &mut impl FnMut(usize)) {
         for y in self.turns(y) {
             let meets = |corner: &[u32; AXES], depth: u32| {

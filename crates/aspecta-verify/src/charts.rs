@@ -38,7 +38,8 @@ pub(super) fn of(certificate: &Certificate) -> Vec<&Chart> {
     certificate.sheets.iter().skip(1).map(|sheet| &sheet.chart).collect()
 }
 
-/// The sheet whose leaves, and those that replace some of them, hold all configurations: that of a chain that holds all, or of the poses.
+/// The sheet whose leaves, and those that replace some of them, hold all configurations: that of a chain that
+/// holds all, or of the poses.
 pub(super) fn base_of(charts: &[&Chart]) -> usize {
     usize::from(charts.first().is_some_and(|chart| chart.is_whole()))
 }
@@ -48,7 +49,7 @@ pub(super) fn beneath(sheet: usize, base: usize) -> usize {
     if sheet > base { base } else { 0 }
 }
 
-/// What is wrong with the window of the poses.
+/// Returns the fault of the window of poses, if it has one.
 pub(super) fn fault_of_window(certificate: &Certificate) -> Option<String> {
     let held: Vec<(usize, f64)> = certificate.window.held().collect();
     match certificate.robot.slice(&held) {
@@ -58,7 +59,7 @@ pub(super) fn fault_of_window(certificate: &Certificate) -> Option<String> {
     }
 }
 
-/// What is wrong with the chart of a fold.
+/// Returns the fault of the chart of a fold, if it has one.
 pub(super) fn fault_of_fold(robot: &Robot, poses: &Window, fold: &Fold) -> Option<&'static str> {
     let translations = if robot.platform == Platform::TranslatingBody { 0..3 } else { 0..2 };
     let whole = |k: usize| poses.ranges[k].0 < poses.ranges[k].1 && poses.cut[k] == (false, false);
@@ -127,8 +128,9 @@ impl Cap {
         Some(Self { end: leg.frame[2].map(|x| side * x), joint: leg.attachment, radius })
     }
 
-    /// If an orientation were in both, each joint would be near its end: the angle between the joints and that between the ends would
-    /// differ by no more than the radii, by the triangle inequality on the sphere.
+    /// If an orientation were in both, each joint would be near its end: the angle between the joints and
+    /// that between the ends would differ by no more than the radii, by the triangle inequality on the
+    /// sphere.
     fn is_apart_from(&self, other: &Self) -> bool {
         let (Some(ends), Some(joints)) = (between(&self.end, &other.end), between(&self.joint, &other.joint))
         else {
@@ -145,7 +147,8 @@ fn between(x: &[Interval; 3], y: &[Interval; 3]) -> Option<Interval> {
     Interval::angle(dot(x, y), (a + b + c).sqrt())
 }
 
-/// What a box of a sheet is in the coordinates of the one beneath, whose chart is `under`: in each posture of a chain's leg.
+/// Encloses a box of a sheet in the coordinates of the sheet beneath, whose chart is `under`, in each posture
+/// of a chain's leg.
 pub(super) fn images<const D: usize>(
     setting: &Setting<'_>,
     y: &Coordinates,
@@ -175,8 +178,8 @@ pub(super) fn partly_in<const D: usize>(base: &Sheet<'_>, chart: &Chart) -> Vec<
     work::map_range(base.cells.leaves.len(), is_partly_in)
 }
 
-/// The leaves of the base that a leaf of a later sheet may meet on the outer faces of its chart, of those that are `partly` in it. They have a class in
-/// common with it.
+/// The leaves of the base that a leaf of a later sheet may meet on the outer faces of its chart, of those
+/// that are `partly` in it. They have a class in common with it.
 pub(super) fn met_outside<const D: usize>(
     sheet: &Sheet<'_>,
     leaf: usize,

@@ -1,4 +1,4 @@
-//! What is claimed of a leaf, proved again by cutting it up.
+//! The claims about a leaf, proved again by cutting it up.
 
 use super::in_mode::Existence;
 use super::place::{Coordinates, Place, Setting};

@@ -51,7 +51,8 @@ pub(super) fn check<const D: usize>(
     }
 }
 
-/// What is claimed of the number of aspects beyond what is proved; it is wrong if the other bound that is proved contradicts it.
+/// Returns the claims about the number of aspects that go beyond what is proved; one is wrong if the other
+/// proved bound contradicts it.
 fn faults(class: usize, claimed: Claim, proved: Claim) -> Vec<Fault> {
     let aspects = |n: usize| num::count(n, "aspect", "aspects");
     let mut faults = Vec::new();
@@ -136,7 +137,8 @@ impl<'a> Leaves<'a> {
         (0..self.sheets.len()).flat_map(of_sheet).collect()
     }
 
-    /// The leaves after this one in its sheet that touch it and have a class in common with it, numbered through the sheets.
+    /// The leaves after this one in its sheet that touch it and have a class in common with it, numbered
+    /// through the sheets.
     fn neighbours(&self, s: usize, leaf: usize) -> Vec<usize> {
         let cells = &self.sheets[s].cells;
         let classes = |leaf: usize| cells.leaves[leaf].claims.inside | cells.leaves[leaf].claims.undecided;
@@ -170,7 +172,8 @@ impl<'a> Leaves<'a> {
         sets.count(inside, |i| self.is_clear::<D>(i, charts))
     }
 
-    /// Whether the middle of a leaf is in no chart of a later sheet, as those of sheets after the base are, which are disjoint.
+    /// Whether the middle of a leaf is in no chart of a later sheet, as those of sheets after the base are,
+    /// which are disjoint.
     fn is_clear<const D: usize>(&self, leaf: usize, charts: &[&Chart]) -> bool {
         let sheet = self.first.partition_point(|&first| first <= leaf) - 1;
         let later = &charts[sheet..];
@@ -182,7 +185,8 @@ impl<'a> Leaves<'a> {
         }
     }
 
-    /// Pieces of inside leaves in which an aspect may be highest, if all aspects are highest in an inside leaf.
+    /// Pieces of inside leaves in which an aspect may be highest, if all aspects are highest in an inside
+    /// leaf.
     fn high(&self, class: usize, links: &[Link]) -> Option<usize> {
         let bit: ClassSet = 1 << class;
         let hides =

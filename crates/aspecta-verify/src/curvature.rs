@@ -1,8 +1,9 @@
 //! The second-order test for summits.
 //!
-//! Where det A alone is the least of the functions of P, all over a box, and every leg closes strictly, P is σ det A / scale near each point of
-//! it. If σ det A has a positive second derivative along one and the same straight line of coordinates at all points of the box, none is a
-//! local maximum. This settles boxes at double points of det A = 0, where no direction leads uphill.
+//! Where det A alone is the least of the functions of P, all over a box, and every leg closes strictly, P is
+//! σ det A / scale near each point of it. If σ det A has a positive second derivative along one and the same
+//! straight line of coordinates at all points of the box, none is a local maximum. This settles boxes at
+//! double points of det A = 0, where no direction leads uphill.
 
 use super::body::{Body, MOST};
 use super::determinant::Turned;
@@ -19,7 +20,8 @@ fn twice<S: Scalar>(value: S, first: S, second: S) -> Twice<S> {
     Jet { value: Jet { value, gradient: [first] }, gradient: [Jet { value: first, gradient: [second] }] }
 }
 
-/// A along the line y + t v at t = 0, where the legs have the joint coordinates q (if a leg is the fold's, its own is not looked at).
+/// A along the line y + t v at t = 0, where the legs have the joint coordinates q (if a leg is the fold's,
+/// its own is not looked at).
 fn rows_along<S: Scalar, const D: usize>(
     setting: &Setting<'_>,
     y: &[S; MOST],
@@ -51,7 +53,8 @@ fn second<S: Scalar>(det: &Twice<S>) -> S {
     det.gradient[0].gradient[0]
 }
 
-/// Whether σ det A has no local maximum in the box; σ = `sign`, `q` as in [`rows_along`] over the box and at its middle.
+/// Whether σ det A has no local maximum in the box; σ = `sign`, `q` as in [`rows_along`] over the box and at
+/// its middle.
 pub(super) fn has_no_maximum<const D: usize>(
     setting: &Setting<'_>,
     y: &Coordinates,

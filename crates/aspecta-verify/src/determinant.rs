@@ -15,7 +15,8 @@ enum Rows {
     Last,
 }
 
-/// For each set of columns the determinant of as many of the first, or of the last, rows on these columns.
+/// Returns, for each set of columns, the determinant of as many of the first, or of the last, rows on these
+/// columns.
 fn minors<T: Scalar>(rows: &[[T; MOST]], which: Rows) -> [T; SETS] {
     let mut all = [T::zero(); SETS];
     all[0] = T::constant(Interval::point(1.0));
@@ -52,8 +53,8 @@ pub(super) fn determinant<T: Scalar>(rows: &[[T; MOST]]) -> T {
     minors(rows, Rows::Last)[(1 << rows.len()) - 1]
 }
 
-/// The derivatives of [`determinant`] with respect to all entries: the rows above an entry and those below it share the columns beside it out in
-/// all ways.
+/// The derivatives of [`determinant`] with respect to all entries: the rows above an entry and those below it
+/// share the columns beside it out in all ways.
 pub(super) fn cofactors<T: Scalar>(rows: &[[T; MOST]]) -> [[T; MOST]; MOST] {
     let (first, last) = (minors(rows, Rows::First), minors(rows, Rows::Last));
     let whole = (1usize << rows.len()) - 1;
@@ -71,7 +72,8 @@ pub(super) fn cofactors<T: Scalar>(rows: &[[T; MOST]]) -> [[T; MOST]; MOST] {
     all
 }
 
-/// A matrix A as PAR, P and R being constant and PAR nearly diagonal: few of the products in its determinant are large then.
+/// A matrix A as PAR, P and R being constant and PAR nearly diagonal: few of the products in its determinant
+/// are large then.
 pub(super) struct Turned {
     /// (P, R, det P · det R); `None` if both are one.
     by: Option<(Matrix, Matrix, Interval)>,
@@ -80,8 +82,9 @@ pub(super) struct Turned {
 type Matrix = [[Interval; MOST]; MOST];
 
 impl Turned {
-    /// For matrices near one with these rows: P and R are made of its singular vectors. How they are found does not matter. Up to three rows have so few
-    /// products that they are left as they are.
+    /// Returns the factors for matrices near one with these rows: P and R are made of its singular vectors.
+    /// How they are found does not matter. Up to three rows have so few products that they are left as they
+    /// are.
     pub(super) fn near(rows: &[[Interval; MOST]]) -> Self {
         if rows.len() <= 3 { Self { by: None } } else { Self { by: singular_vectors(rows) } }
     }
@@ -96,7 +99,8 @@ impl Turned {
         }
     }
 
-    /// det A in one or more ways, all of which hold: of up to three rows along each, because the entries of that row then count once.
+    /// det A in one or more ways, all of which hold: of up to three rows along each, because the entries of
+    /// that row then count once.
     pub(super) fn expansions<T: Scalar>(&self, rows: &[[T; MOST]]) -> ArrayVec<T, MOST> {
         let along = |j: usize| {
             let mut first: ArrayVec<[T; MOST], MOST> = rows.iter().copied().collect();

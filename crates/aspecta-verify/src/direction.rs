@@ -6,12 +6,13 @@ use nalgebra::{DMatrix, DVector};
 /// Corrections of a direction.
 const CORRECTIONS: usize = 4;
 
-/// Whether some fixed v has v·γ > 0 for every γ in each of the boxes `growth`, all of one dimension M. How v is found does not
-/// matter: it is checked.
+/// Whether some fixed v has v·γ > 0 for every γ in each of the boxes `growth`, all of one dimension M. How v
+/// is found does not matter: it is checked.
 ///
-/// Of the directions in which given vectors g_k all grow, the one with the widest margin is the shortest v with g_k·v = 1 for
-/// some up to M of them (the support vectors of a machine of that name): all are tried. The vectors are first the middles of the
-/// boxes, then the corners that are worst for the direction found before.
+/// Of the directions in which given vectors g_k all grow, the one with the widest margin is the shortest v
+/// with g_k·v = 1 for some up to M of them (the support vectors of a machine of that name): all are tried.
+/// The vectors are first the middles of the boxes, then the corners that are worst for the direction found
+/// before.
 pub(super) fn climbable(growth: &[Vec<Interval>]) -> bool {
     let Some(size) = growth.first().map(Vec::len) else { return false };
     let may_vanish = |g: &Vec<Interval>| g.iter().all(|x| x.contains(0.0));
@@ -74,7 +75,7 @@ fn balanced(growth: &[Vec<Interval>]) -> Vec<f64> {
     units
 }
 
-/// All sets of 1 to `most` numbers below `count`.
+/// Returns all sets of 1 to `most` numbers below `count`.
 fn subsets(count: usize, most: usize) -> Vec<Vec<usize>> {
     let mut all: Vec<Vec<usize>> = vec![vec![]];
     let mut from = 0;

@@ -30,7 +30,7 @@ fn undecided(robot: &Robot) -> Certificate {
     one_leaf(robot, &[], robot.working_modes()[0], leaf, Claim { low: 0, high: None })
 }
 
-/// What is said of a file that is not read.
+/// Returns the message about a file that is refused.
 fn refusal(certificate: &Certificate) -> String {
     Certificate::from_json(certificate.to_json().unwrap().as_bytes()).unwrap_err().to_string()
 }
@@ -40,7 +40,8 @@ fn verdict(certificate: &Certificate) -> Verdict {
     verify(&read, &Control::unwatched())
 }
 
-/// Where a window cuts roll and yaw it ends at the pole of the pitch too: poses beyond have other rolls and yaws. An aspect may be highest there.
+/// Where a window cuts roll and yaw it ends at the pole of the pitch too: poses beyond have other rolls and
+/// yaws. An aspect may be highest there.
 #[test]
 fn a_wedge_ends_at_the_pole() {
     let mut robot = sphere();

@@ -1,4 +1,4 @@
-//! What intervals prove of one working mode in a box: whether it exists, and det A.
+//! Proofs by intervals about one working mode in a box: whether it exists, and the sign of det A.
 
 use super::body::MOST;
 use super::determinant::Turned;
@@ -11,7 +11,7 @@ use aspecta_robot::num::{Interval, Scalar, dot};
 use std::cell::OnceCell;
 use std::rc::Rc;
 
-/// What is proved of a working mode in a box.
+/// Whether a working mode is proved to exist in a box, or not to exist.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Existence {
     /// Everywhere, legs strictly closed and limits strictly kept.
@@ -21,7 +21,8 @@ pub(super) enum Existence {
     Unknown,
 }
 
-/// The robot in one working mode over a box, or over the part of its configurations where some h_j are in given ranges.
+/// The robot in one working mode over a box, or over the part of its configurations where some h_j are in
+/// given ranges.
 pub(super) struct InMode<'p, 'a, const D: usize> {
     pub place: &'p Place<'a, D>,
     pub mode: WorkingMode,
@@ -49,7 +50,8 @@ impl<'p, 'a, const D: usize> InMode<'p, 'a, D> {
         self.legs.iter().any(|leg| leg.loose)
     }
 
-    /// The ranges of h_j of the legs that are near a serial singularity for the size of the box, or `None` if none is.
+    /// The ranges of h_j of the legs that are near a serial singularity for the size of the box, or `None` if
+    /// none is.
     pub(super) fn heights_near_zero(&self) -> Option<Heights> {
         let is_near =
             |j: usize, leg: &Posture| self.place.setting.has_root(j) && leg.reach.lo <= NEAR * leg.reach.hi;
@@ -127,7 +129,8 @@ impl<'p, 'a, const D: usize> InMode<'p, 'a, D> {
         let over = Along { value, gradient: std::array::from_fn(total) };
         let mut range = self.place.centred(&over, narrowest(&at_middle, &middle));
         if self.is_loose() {
-            // The q's of loose legs counted from their middles: near a serial singularity this is often the narrower.
+            // The q's of loose legs counted from their middles: near a serial singularity this is often the
+            // narrower.
             let still = turned.determinant(&self.rows(|leg, i| leg.at_middle.row[i]));
             let loose = self.legs.iter().zip(by_joint).filter(|(leg, _)| leg.loose);
             let moved = loose.fold(still, |sum, (leg, slope)| sum + slope * (leg.q - leg.middle));

@@ -154,7 +154,7 @@ fn sheets(certificate: &Certificate) -> Vec<Sheet<'_>> {
     .collect()
 }
 
-/// What is wrong with the window and the constants of the charts, whose boxes are not looked at before.
+/// Checks the window and the constants of the charts, before any of their boxes is looked at.
 fn check_windows(certificate: &Certificate, charts: &[&Chart], verdict: &mut Verdict) {
     if let Some(reason) = charts::fault_of_window(certificate) {
         verdict.faults.push(Fault { is_wrong: true, ..Fault::of_sheet(0, reason) });

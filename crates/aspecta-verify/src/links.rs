@@ -39,8 +39,8 @@ pub(super) fn check<const D: usize>(
     links
 }
 
-/// Leaves of a sheet that are inside a class and connected by a small box, of which it is enough to know that one point of it
-/// matters: one that holds all of it, or all those that it meets.
+/// Leaves of a sheet that are inside a class and connected by a small box, of which it is enough to know that
+/// one point of it matters: one that holds all of it, or all those that it meets.
 fn inside(sheets: &[Sheet<'_>], sheet: usize, y: &Coordinates, class: usize) -> Vec<(usize, usize)> {
     let Sheet { setting, cells } = &sheets[sheet];
     let is_inside = |leaf: &usize| cells.leaves[*leaf].claims.inside >> class & 1 == 1;

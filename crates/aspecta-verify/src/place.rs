@@ -1,4 +1,4 @@
-//! What intervals prove of one box of a chart, leg by leg.
+//! Enclosures over one box of a chart, leg by leg.
 
 use super::body::{Body, LegState, Links, MOST, joint, slope_per_root};
 use super::in_mode::InMode;
@@ -18,7 +18,7 @@ pub(super) type Function = Jet<Interval, { AXES + 1 }>;
 /// The place of the derivative with respect to the leg's q.
 pub(super) const OWN: usize = AXES;
 
-/// The same along the axes only.
+/// A function of the pose with its derivatives along the axes only.
 pub(super) type Along = Jet<Interval, AXES>;
 
 pub(super) const ZERO: Interval = Interval::point(0.0);
@@ -80,7 +80,7 @@ pub(super) type Coordinates = [Interval; MOST];
 /// Ranges of h_j = √H_j.
 pub(super) type Heights = [Interval; MOST];
 
-/// All that can be.
+/// The interval [0, ∞), for a non-negative quantity about which nothing is known.
 pub(super) const ANY: Interval = Interval { lo: 0.0, hi: f64::INFINITY };
 
 /// A leg in one posture over a box.
@@ -278,7 +278,8 @@ impl<'a, const D: usize> Place<'a, D> {
         }
     }
 
-    /// How far beyond the boundary of a bend's chart v is along the motor's axis e: e·v = cos a cos b − sin a sin b cos ψ, ψ being the elbow's angle.
+    /// Returns how far beyond the boundary of a bend's chart v is along the motor's axis e: e·v = cos a cos b
+    /// − sin a sin b cos ψ, ψ being the elbow's angle.
     fn bend_margin(&self, leg: usize, bend: &Bend) -> Interval {
         let Some(links) = Links::of(&self.setting.robot.legs[leg]) else { return Interval::ENTIRE };
         let ((cos_a, sin_a), (cos_b, sin_b)) = (links.proximal, links.distal);

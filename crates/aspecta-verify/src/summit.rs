@@ -40,7 +40,7 @@ impl Velocity {
     }
 }
 
-/// What tangent vectors hold of legs that may be near a serial singularity.
+/// The coordinate that tangent vectors keep fixed for a leg that may be near a serial singularity.
 #[derive(Clone, Copy, PartialEq)]
 enum Held {
     /// q_j.
@@ -56,10 +56,11 @@ const PARTS: usize = 200;
 const SMALLEST: f64 = 1.0 / 256.0;
 
 impl<const D: usize> InMode<'_, '_, D> {
-    /// Whether P certainly has no maximum in the box, in the class of the mode and the sign of det A (module documentation).
+    /// Whether P certainly has no maximum in the box, in the class of the mode and the sign of det A (module
+    /// documentation).
     ///
-    /// Near a serial singularity h_j varies like the root of the box's width, however small the box: other directions may lead uphill for
-    /// other h_j, so their ranges are cut too.
+    /// Near a serial singularity h_j varies like the root of the box's width, however small the box: other
+    /// directions may lead uphill for other h_j, so their ranges are cut too.
     pub(super) fn is_summitless(&self, sign: f64) -> bool {
         if self.climbs(sign) {
             return true;
@@ -157,8 +158,9 @@ impl<const D: usize> InMode<'_, '_, D> {
         all
     }
 
-    /// Sets of legs for which velocities are chosen with care: those whose B_jj may vanish must be among them; it helps if those are
-    /// whose H_j is small, because the gradients of det A and H_j are nearly parallel there.
+    /// Sets of legs for which velocities are chosen with care: those whose B_jj may vanish must be among
+    /// them; it helps if those are whose H_j is small, because the gradients of det A and H_j are nearly
+    /// parallel there.
     fn choices_of_loose(&self) -> Vec<Vec<usize>> {
         let setting = self.place.setting;
         let among = |most: f64| -> Vec<usize> {
@@ -171,9 +173,9 @@ impl<const D: usize> InMode<'_, '_, D> {
         choices
     }
 
-    /// As many tangent vectors of the configurations as there are axes. With n_j = ∂f_j/∂y they fulfil n_j·ẏ + B_jj q̇_j = 0 exactly at
-    /// every configuration of the box with B_jj ≠ 0. For the loose legs, either ẏ = −B_jj c and q̇_j = n_j·c, or one of two is held by exact
-    /// cross products:
+    /// Returns as many tangent vectors of the configurations as there are axes. With n_j = ∂f_j/∂y they
+    /// fulfil n_j·ẏ + B_jj q̇_j = 0 exactly at every configuration of the box with B_jj ≠ 0. For the loose
+    /// legs, either ẏ = −B_jj c and q̇_j = n_j·c, or one of two is held by exact cross products:
     ///
     /// - q_j: n_j·ẏ = 0 and q̇_j = 0;
     /// - h_j: ∇H_j·ẏ = 0. As B_jj² is H_j, up to a constant, it does not change, and ∂B_jj/∂y·ẏ + ∂B_jj/∂q_j q̇_j = 0 gives q̇_j. A strut has no H_j.
@@ -231,8 +233,8 @@ fn unit(v: &Direction) -> Direction {
     middle.map(|x| Interval::point(if length.is_normal() { x / length } else { x }))
 }
 
-/// `count` directions: first those perpendicular to all the normals, then for each normal (its index given) one that is
-/// perpendicular to all the others. `None` if there are more normals than directions.
+/// `count` directions: first those perpendicular to all the normals, then for each normal (its index given)
+/// one that is perpendicular to all the others. `None` if there are more normals than directions.
 fn directions(count: usize, normals: &[Direction]) -> Option<Vec<(Direction, Option<usize>)>> {
     let axis = |a: usize| std::array::from_fn(|k| if k == a { ONE } else { ZERO });
     // Perpendicular to a vector of the first two axes, in their plane.
@@ -276,7 +278,8 @@ mod tests {
         assert!(change.contains(0.0) && change.magnitude() <= small, "{change:?}, above {small:e}");
     }
 
-    /// At random configurations of a robot, whichever legs count as loose; returns how many velocities held some h_j.
+    /// At random configurations of a robot, whichever legs count as loose; returns how many velocities held
+    /// some h_j.
     fn look_at<const D: usize>(robot: &Robot) -> usize {
         let (window, modes) = (robot.slice(&[]).unwrap(), robot.working_modes());
         let scale = Scale::ones(robot);

@@ -20,7 +20,8 @@ fn written(robot: &Robot, options: &Options) -> Certificate {
     Certificate::from_json(certificate.to_json().unwrap().as_bytes()).unwrap()
 }
 
-/// What an analysis proves of a robot, or of the slice `fix`: its leaves, joins and seams. Nothing is claimed.
+/// Returns the leaves, joins and seams that an analysis proves of a robot, or of the slice `fix`, without any
+/// claim.
 fn certified(robot: &Robot, fix: &[(usize, f64)], budget: &Budget) -> Certificate {
     let options = Options { budget: *budget, fix: fix.to_vec(), certificate: true, ..Options::default() };
     let mut certificate = written(robot, &options);
@@ -212,7 +213,7 @@ fn bounds_are_checked() {
     assert!(checked(&weaker).is_verified());
 }
 
-/// What is proved wrong is told from what is only not proved.
+/// A claim that is proved wrong is told from one that is only not proved.
 #[test]
 fn wrong_claims_are_told_from_unproved_ones() {
     let verdict = |original: &Certificate, change: fn(&mut Certificate)| {
@@ -278,7 +279,8 @@ fn certified_slice(name: &str, fix: Vec<(usize, f64)>, modes: &[&str], budget: B
     written(&catalogue::find(name).unwrap(), &options)
 }
 
-/// Where a leg stretches out to its limit of reach and its q counts as a coordinate of its own, det A has to be counted from the middle of q.
+/// Where a leg stretches out to its limit of reach and its q counts as a coordinate of its own, det A has to
+/// be counted from the middle of q.
 #[test]
 fn leaves_at_a_limit_of_reach_are_proved() {
     let budget = Budget { depth: Some(10), ..Budget::default() };

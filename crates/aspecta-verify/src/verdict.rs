@@ -1,4 +1,4 @@
-//! What a check found.
+//! The result of a check.
 
 use crate::certificate::{Certificate, Claim};
 use aspecta_robot::WorkingMode;
@@ -64,9 +64,9 @@ pub struct Fault {
     pub leaf: Option<usize>,
     /// The class: 2m for mode m and det A > 0, 2m + 1 for det A < 0.
     pub class: Option<usize>,
-    /// Where the leaf is.
+    /// The bounds of the leaf's box, per coordinate.
     pub bounds: Vec<(f64, f64)>,
-    /// What is wrong.
+    /// The reason.
     pub reason: String,
     /// Whether the claim is proved wrong; else it could not be proved with the effort spent.
     pub is_wrong: bool,

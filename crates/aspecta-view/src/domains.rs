@@ -1,4 +1,5 @@
-//! Files of section 4: pictures of basic regions and uniqueness domains, meshes of the surfaces that bound them.
+//! Files of section 4: pictures of basic regions and uniqueness domains, meshes of the surfaces that bound
+//! them.
 
 use crate::figure::components::JointSpace;
 use crate::figure::cut::Cut;
@@ -22,7 +23,7 @@ pub enum MeshFormat {
     Vtp,
 }
 
-/// What may be chosen of the files.
+/// The choice of files to write.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Choice {
     /// Formats of the meshes.
@@ -31,9 +32,9 @@ pub struct Choice {
     pub held: usize,
 }
 
-/// Writes pictures into `dir`, which is created if need be: `aspect-N-regions.svg`, `-uniqueness.svg`, `-components.svg` and
-/// `-sheets.svg`; for robots with three coordinates also meshes, `aspect-N-boundary` and `aspect-N-characteristic`, or both in one file
-/// `aspect-N.glb`. Returns the paths.
+/// Writes pictures into `dir`, which is created if need be: `aspect-N-regions.svg`, `-uniqueness.svg`,
+/// `-components.svg` and `-sheets.svg`; for robots with three coordinates also meshes, `aspect-N-boundary`
+/// and `aspect-N-characteristic`, or both in one file `aspect-N.glb`. Returns the paths.
 ///
 /// # Errors
 /// Those of the file system.

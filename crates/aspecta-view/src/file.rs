@@ -4,7 +4,8 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// Creates a directory if need be and makes sure that files can be written into it: before long work, not after it.
+/// Creates a directory if need be and makes sure that files can be written into it: before long work, not
+/// after it.
 ///
 /// # Errors
 /// Those of the file system.

@@ -1,4 +1,4 @@
-//! What Aspecta finds, drawn and written for people and for other programs.
+//! Drawings and files of the results of Aspecta, for people and for other programs.
 //!
 //! Every entry point takes a result of the library `aspecta` and returns text, or writes files that are there only when
 //! they are complete. Equal results give equal files.

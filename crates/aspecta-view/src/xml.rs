@@ -1,4 +1,4 @@
-//! What every file in XML needs: SVG, MJCF and VTK.
+//! Escaping and numbers for every file in XML: SVG, MJCF and VTK.
 
 /// `text` with the characters that mean something in XML written out.
 pub fn escape(text: &str) -> String {

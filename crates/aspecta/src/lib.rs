@@ -84,7 +84,7 @@ pub use aspecta_verify::certificate;
 #[doc(inline)]
 pub use aspecta_kinematics::cusps::{Cusps, Options as CuspOptions, cusps};
 #[doc(inline)]
-pub use aspecta_kinematics::demand::Margins;
+pub use aspecta_kinematics::constraints::Margins;
 #[doc(inline)]
 pub use aspecta_kinematics::follow::{Follower, InverseFollower};
 #[doc(inline)]

@@ -7,13 +7,14 @@ use clap::Args;
 /// The margins asked for.
 #[derive(Args)]
 pub struct Away {
-    /// Stay away from singularities: |det Â| at least M and every |B_jj|/max at least N (or M), each from 0 to 1, proved
+    /// Stay away from singularities: |det Â| at least M and every |B_jj|/max at least N (or M), each from 0
+    /// to 1, proved
     #[arg(long, value_name = "M[,N]", allow_hyphen_values = true)]
     avoid: Option<String>,
 }
 
 impl Away {
-    /// As the library takes them; none unless asked for.
+    /// Returns the margins as the library takes them; none unless asked for.
     pub fn margins(&self) -> Result<Margins, Failure> {
         let Some(text) = &self.avoid else { return Ok(Margins::default()) };
         let number = |x: &str| x.trim().parse::<f64>().ok().filter(|x| (0.0..1.0).contains(x));

@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use aspecta::motion::explore::Effort;
 use aspecta::paving::{Budget, MAX_DEPTH};
 
-/// What is fine enough to work with aspects in so many free coordinates, if no budget is given.
+/// Returns the budget used if none is given: fine enough to work with aspects in so many free coordinates.
 pub fn coarse(free: usize) -> Budget {
     let depth = match free {
         0 | 1 => 16,
@@ -14,7 +14,7 @@ pub fn coarse(free: usize) -> Budget {
     Budget { depth: Some(depth), ..Budget::default() }
 }
 
-/// What a roadmap may take: its budget is a time.
+/// Returns the effort of a roadmap, whose budget is a time.
 ///
 /// # Errors
 /// [`Failure::Input`] if it is something else.

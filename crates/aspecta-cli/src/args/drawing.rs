@@ -1,4 +1,4 @@
-//! What `domains --out` writes.
+//! The options that choose what `domains --out` writes.
 
 use aspecta_view::{Choice, MeshFormat};
 use clap::{Args, ValueEnum};
@@ -38,7 +38,7 @@ impl From<Format> for MeshFormat {
 const JOINTS: [&str; 3] = ["q1", "q2", "q3"];
 
 impl Drawing {
-    /// As the library wants it.
+    /// Returns the choice as the library takes it.
     pub fn choice(&self) -> Choice {
         let held = JOINTS.iter().position(|joint| *joint == self.hold).unwrap_or(2);
         Choice { meshes: self.meshes.iter().copied().map(MeshFormat::from).collect(), held }

@@ -13,8 +13,8 @@ pub struct FixArg {
 }
 
 impl FixArg {
-    /// Coordinates of the pose, as in `phi=0.5`, `phi=30deg`, `x=-4`: (index, value), lengths in the robot's unit, angles in rad.
-    /// Whether the robot can have these values is for the library to say.
+    /// Coordinates of the pose, as in `phi=0.5`, `phi=30deg`, `x=-4`: (index, value), lengths in the robot's
+    /// unit, angles in rad. Whether the robot can have these values is for the library to say.
     ///
     /// # Errors
     /// A sentence that names the text at fault and what would do.

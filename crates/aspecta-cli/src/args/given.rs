@@ -88,7 +88,8 @@ impl PosesOrJoints {
     }
 }
 
-/// The value of an option, or the rows of `file` in one of `layouts`; clap sees to it that one of both is there.
+/// The value of an option, or the rows of `file` in one of `layouts`; clap sees to it that one of both is
+/// there.
 fn read(
     (option, value): (&str, &Option<String>),
     file: &Option<String>,

@@ -1,4 +1,4 @@
-//! What a shared option is for in one command: `#[command(mut_args(help("mode", "Only …")))]`.
+//! The purpose of a shared option in one command: `#[command(mut_args(help("mode", "Only …")))]`.
 //!
 //! `mut_args` keeps the order of options, which `mut_arg` does not.
 

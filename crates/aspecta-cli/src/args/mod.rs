@@ -1,4 +1,4 @@
-//! What commands are told: options that several of them have, each typed once, and what their values mean.
+//! Options that several commands share, each typed once, and the meaning of their values.
 //!
 //! Where commands use an option for different things, each says what for by [`help`].
 

@@ -37,7 +37,8 @@ struct From {
     /// The lines are joint vectors
     #[arg(long)]
     joints: bool,
-    /// The lines are joint vectors: the pose that the first one means, at least roughly (not needed if it has one only)
+    /// The lines are joint vectors: the pose that the first one means, at least roughly (not needed if it has
+    /// one only)
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
     start: Option<String>,
 }
@@ -92,7 +93,7 @@ impl PathArgs {
         }
     }
 
-    /// What the path is, in words: `3 poses joined by straight segments`.
+    /// Returns a description of the path, such as `3 poses joined by straight segments`.
     pub fn describe(&self, lines: usize) -> String {
         let what = if self.is_of_joints() { "joint vectors" } else { "poses" };
         match self.joined {

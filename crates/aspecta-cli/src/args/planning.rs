@@ -1,4 +1,4 @@
-//! What every command that plans motions is told.
+//! Options of every command that plans motions.
 
 use super::away::Away;
 use super::budget;
@@ -16,7 +16,8 @@ use std::path::PathBuf;
 /// How the robot is analysed before anything is planned.
 #[derive(Args)]
 pub struct Analysing {
-    /// When to stop telling the aspects apart, as for `analyze` [default: depth=11 for 2 coordinates, depth=7 for 3]
+    /// When to stop telling the aspects apart, as for `analyze` [default: depth=11 for 2 coordinates, depth=7
+    /// for 3]
     #[arg(long, value_parser = budget::parse, allow_hyphen_values = true)]
     pub budget: Option<Budget>,
     #[command(flatten)]
@@ -26,7 +27,8 @@ pub struct Analysing {
 /// What kind of path is wanted.
 #[derive(Args)]
 struct Wishes {
-    /// How much nearness to singularities counts: a unit of length costs c^-W, c being the smaller of the normalised |det A| and the
+    /// How much nearness to singularities counts: a unit of length costs c^-W, c being the smaller of the
+    /// normalised |det A| and the
     /// |B_jj|/max. 0: the shortest path; 8: as good as only the least clearance
     #[arg(long, value_name = "W", default_value_t = 1.0, allow_negative_numbers = true)]
     weight: f64,
@@ -35,7 +37,8 @@ struct Wishes {
 }
 
 impl Planning {
-    /// What kind of path is wanted; that the directory of `--out` can be written to is seen to before the work begins.
+    /// Returns the kind of path that is wanted. Whether the directory of `--out` can be written to is checked
+    /// before the work begins.
     pub fn options(&self) -> Result<PlanOptions, Failure> {
         self.moving.out.check()?;
         self.wishes.options()
@@ -43,7 +46,7 @@ impl Planning {
 }
 
 impl Wishes {
-    /// As the library takes them.
+    /// Returns the wishes as the library takes them.
     fn options(&self) -> Result<PlanOptions, Failure> {
         if !(self.weight >= 0.0 && self.weight <= 64.0) {
             return Err(Failure::Input(format!("--weight {}: give a number from 0 to 64", self.weight)));
@@ -60,8 +63,9 @@ const OUT: &str = "\
 #[derive(Args)]
 #[command(mut_args(help("out", OUT)))]
 pub struct Moving {
-    /// Write the motion under joint limits to this CSV file: time, pose, joints, their speeds and accelerations. It needs --speed and --acceleration. The robot rests at each
-    /// waypoint, but not where a leg changes its posture
+    /// Write the motion under joint limits to this CSV file: time, pose, joints, their speeds and
+    /// accelerations. It needs --speed and --acceleration. The robot rests at each waypoint, but not where a
+    /// leg changes its posture
     #[arg(long, value_name = "FILE", requires = "speed", requires = "acceleration")]
     pub trajectory: Option<PathBuf>,
     /// The greatest speed of the joints: one number for all, or one a joint
@@ -85,7 +89,8 @@ pub struct Planning {
     pub moving: Moving,
     #[command(flatten)]
     pub analysing: Analysing,
-    /// Free bodies are not analysed but explored by a roadmap: how many poses it draws at most [default: 20000]. A --budget is then a time
+    /// Free bodies are not analysed but explored by a roadmap: how many poses it draws at most [default:
+    /// 20000]. A --budget is then a time
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub samples: Option<u32>,
     #[command(flatten)]

@@ -60,7 +60,7 @@ struct Document<'a> {
     found: &'a AssemblyModes,
 }
 
-/// What was found.
+/// The assembly modes that were found.
 struct Found {
     modes: AssemblyModes,
     change: Option<Planned>,

@@ -20,7 +20,8 @@ use std::io::Write;
 
 /// Arguments of `cusps`.
 ///
-/// A cusp lets the platform change its assembly mode without meeting a singularity, by a loop of the joints round it.
+/// A cusp lets the platform change its assembly mode without meeting a singularity, by a loop of the joints
+/// round it.
 #[derive(Args)]
 #[command(mut_args(help("fix", FIX)))]
 #[command(mut_args(value_name("fix", "JOINT=VALUE")))]
@@ -108,7 +109,8 @@ fn print(out: &mut dyn Write, robot: &Robot, found: &cusps::Cusps, degrees: bool
     Ok(())
 }
 
-/// What is undecided, each with the modes it is so in: a budget that is spent leaves the same box in many.
+/// Returns the undecided boxes, each with the modes it is undecided in: a budget that is spent leaves the
+/// same box in many.
 fn undecided(robot: &Robot, boxes: &[Undecided], degrees: bool) -> Vec<(Vec<String>, String)> {
     let mut all: Vec<(Vec<String>, String)> = Vec::new();
     for u in boxes {

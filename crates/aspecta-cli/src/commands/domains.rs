@@ -38,14 +38,16 @@ use std::path::{Path, PathBuf};
 #[command(mut_args(value_name("mode", "SIGNS")))]
 #[command(mut_args(help("threads", threads::OF_NO_WEIGHT)))]
 pub struct Domains {
-    /// Name from `aspecta robots`, path of a robot file, or a file written by --save: then nothing is computed
+    /// Name from `aspecta robots`, path of a robot file, or a file written by --save: then nothing is
+    /// computed
     robot: String,
     #[command(flatten)]
     mode: ModeArg,
     /// Only aspects with this sign of det A
     #[arg(long, value_name = "SIGN", allow_hyphen_values = true)]
     det: Option<Sign>,
-    /// Only the aspect with this number, as `aspecta analyze` with the same budget (and --fix, and with that --mode) numbers them
+    /// Only the aspect with this number, as `aspecta analyze` with the same budget (and --fix, and with that
+    /// --mode) numbers them
     #[arg(long, value_name = "ID")]
     aspect: Option<usize>,
     #[command(flatten)]
@@ -74,7 +76,7 @@ enum Sign {
     Minus,
 }
 
-/// What `--json` prints.
+/// The output of `--json`.
 #[derive(Serialize)]
 struct Output<'a> {
     format_version: u32,
@@ -150,7 +152,8 @@ impl Domains {
                 "--save keeps maps of whole workspaces: leave out --fix, or take --json".into(),
             ));
         }
-        // On a slice aspects are numbered within what is analysed; of a whole robot, as `analyze` numbers them.
+        // On a slice aspects are numbered within what is analysed; of a whole robot, as `analyze` numbers
+        // them.
         let modes = if fix.is_empty() { Vec::new() } else { wanted.mode.into_iter().collect() };
         Ok(Part { fix, modes })
     }
@@ -228,7 +231,7 @@ impl Domains {
     }
 }
 
-/// Where the map goes: over nothing but another map.
+/// Returns the file that the map goes to: a new one, or another map that it replaces.
 fn target(path: &Path) -> Result<Target, Failure> {
     if path.is_file() && !input::is_map(path) {
         let path = path.display();

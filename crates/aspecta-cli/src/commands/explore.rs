@@ -123,7 +123,7 @@ fn print(out: &mut dyn Write, robot: &Robot, found: &Exploration, degrees: bool)
     Ok(())
 }
 
-/// What is said if no pose was found in any class.
+/// Prints the message if no pose was found in any class.
 fn nothing(out: &mut dyn Write, found: &Exploration) -> Result<(), Failure> {
     writeln!(
         out,

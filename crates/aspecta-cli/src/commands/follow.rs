@@ -49,7 +49,7 @@ struct Start {
     mode: Option<String>,
 }
 
-/// What is printed of a line. JSON: one such object a line.
+/// The answer to one line of input. JSON has one such object a line.
 #[derive(Serialize)]
 struct Record<'a> {
     format_version: u32,

@@ -23,8 +23,8 @@ use std::io::Write;
 #[derive(Args)]
 #[command(mut_args(help("mode", "Only in this working mode, such as `+-`")))]
 pub struct Locate {
-    /// A file written by `aspecta domains --save`; or the name from `aspecta robots` or the robot file of a robot, whose
-    /// aspects are then found and cut into regions first
+    /// A file written by `aspecta domains --save`; or the name from `aspecta robots` or the robot file of a
+    /// robot, whose aspects are then found and cut into regions first
     robot: String,
     #[command(flatten)]
     given: PosesOrJoints,
@@ -62,7 +62,8 @@ impl Locate {
         Ok(Answer::from(known && found.iter().all(|f| !f.solutions.is_empty())))
     }
 
-    /// The inverse solutions of the poses, or the direct ones of the joint vectors, in the working mode if there is one.
+    /// The inverse solutions of the poses, or the direct ones of the joint vectors, in the working mode if
+    /// there is one.
     fn configurations(&self, robot: &Robot) -> Result<Vec<Found>, Failure> {
         let mode = self.mode.of(robot)?;
         if self.joints && !self.given.is_file() {

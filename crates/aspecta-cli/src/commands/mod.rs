@@ -1,5 +1,5 @@
-//! The subcommands, one file each: what they are given (`args`), what several of them do (`work`) and how they show it (`show`)
-//! is next door.
+//! The subcommands, one file each: what they are given (`args`), what several of them do (`work`) and how
+//! they show it (`show`) is next door.
 
 mod analyze;
 mod assembly;
@@ -54,7 +54,8 @@ pub enum Command {
     Assembly(assembly::Assembly),
     /// Which aspects are joined by legs that change their postures: the graph of working-mode changes
     Modes(modes::Modes),
-    /// The pose space of a free body (six coordinates) by a roadmap: classes of aspects, and what is joined within them
+    /// The pose space of a free body (six coordinates) by a roadmap: classes of aspects, and what is joined
+    /// within them
     Explore(explore::Explore),
     /// Which aspects and uniqueness domains hold a whole set of poses: a box, a list, paths
     Traverse(traverse::Traverse),

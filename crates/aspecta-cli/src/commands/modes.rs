@@ -19,8 +19,8 @@ use std::io::Write;
 
 /// Arguments of `modes`.
 ///
-/// A leg changes its posture in its serial singularity (B_jj = 0). As long as det A ≠ 0 there, the robot stays under control, and the
-/// aspects of two working modes become one larger domain of motion.
+/// A leg changes its posture in its serial singularity (B_jj = 0). As long as det A ≠ 0 there, the robot
+/// stays under control, and the aspects of two working modes become one larger domain of motion.
 #[derive(Args)]
 #[command(mut_args(help("out", "Draw the graph: modes.svg in this directory")))]
 #[command(mut_args(help("deg", "Angles of the tables are in degrees")))]

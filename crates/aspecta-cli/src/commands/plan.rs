@@ -82,7 +82,7 @@ impl Plan {
         motion::print(out, &robot, &planned, &self.planning)
     }
 
-    /// Of a free body.
+    /// Plans a motion of a free body, over a roadmap.
     fn over_roadmap(
         &self,
         out: &mut dyn Write,

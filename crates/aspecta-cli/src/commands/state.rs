@@ -164,7 +164,7 @@ fn mode(s: &kinematics::State) -> String {
     signs(WorkingMode::from_signs(s.b.iter().map(|&b| b > 0.0)), &s.serial_legs)
 }
 
-/// One state as a paragraph, with A and B if `matrices`.
+/// Prints one state as a paragraph, with A and B if `matrices`.
 fn print_one(
     out: &mut dyn Write,
     robot: &Robot,

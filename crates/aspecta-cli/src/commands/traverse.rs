@@ -27,7 +27,8 @@ pub struct Traverse {
     robot: RobotArg,
     #[command(flatten)]
     set: Set,
-    /// With --poses: also say through which groups of aspects every pose can be reached if legs change their postures
+    /// With --poses: also say through which groups of aspects every pose can be reached if legs change their
+    /// postures
     #[arg(long)]
     through_modes: bool,
     /// A file written by `aspecta domains --save`: also say which uniqueness domains hold the set (numerical)
@@ -231,7 +232,7 @@ fn print(out: &mut dyn Write, robot: &Robot, found: &Traversability, degrees: bo
     Ok(())
 }
 
-/// What keeps a pose out.
+/// Returns the name of the constraint that keeps a pose out.
 fn what(robot: &Robot, constraint: Option<Constraint>) -> String {
     match constraint {
         None => "another aspect, or beyond the robot's window".into(),

@@ -142,13 +142,13 @@ fn range(claim: Claim) -> String {
     }
 }
 
-/// What the total leaves out.
+/// Returns the restriction under which the total is meant.
 fn restriction(certificate: &Certificate) -> &'static str {
     let all = certificate.robot.working_modes().len();
     if certificate.modes.len() < all { ", in the working modes listed" } else { "" }
 }
 
-/// All classes together.
+/// Returns the total over all classes, in words.
 fn total(claims: &[Claim]) -> String {
     let low: usize = claims.iter().map(|c| c.low).sum();
     let aspects = |n: usize| count(n, "generalized aspect", "generalized aspects");

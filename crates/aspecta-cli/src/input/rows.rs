@@ -14,7 +14,7 @@ pub struct Row {
     pub line: u64,
     /// Its numbers, in the order of the columns asked for; angles in rad.
     pub values: Vec<f64>,
-    /// What its `mode` column says, if the header has one.
+    /// The entry of its `mode` column, if the header has one.
     pub mode: Option<String>,
 }
 
@@ -116,8 +116,8 @@ impl Iterator for Rows<'_> {
 
 /// The record in a line, or `None` if it is empty or a comment; a spreadsheet's byte order mark is skipped.
 ///
-/// Lines are read one by one, as no field goes over several: so a stream is answered as it comes, and a line's number
-/// is known though lines are skipped before it.
+/// Lines are read one by one, as no field goes over several: so a stream is answered as it comes, and a
+/// line's number is known though lines are skipped before it.
 fn record(line: &str) -> Result<Option<StringRecord>, csv::Error> {
     let line = line.trim_start_matches('\u{feff}').trim();
     if line.is_empty() || line.starts_with('#') {
@@ -128,7 +128,7 @@ fn record(line: &str) -> Result<Option<StringRecord>, csv::Error> {
     reader.into_records().next().transpose()
 }
 
-/// Where the wanted columns stand in a file.
+/// The positions of the wanted columns in a file.
 struct Shape {
     columns: Columns,
     /// `fields[k]` is the index in the record of column k.
@@ -178,7 +178,7 @@ impl Shape {
     }
 }
 
-/// What is said of a line without a comma, as spreadsheets write it where numbers hold commas.
+/// Returns the message about a line without a comma, as spreadsheets write it where numbers hold commas.
 fn elsewise_separated(line: &str, separator: char) -> String {
     let name = if separator == ';' { "semicolons" } else { "tabs" };
     format!(

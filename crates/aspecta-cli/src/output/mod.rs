@@ -1,4 +1,4 @@
-//! What people, scripts and spreadsheets read.
+//! Output for people, scripts and spreadsheets.
 
 mod answers;
 mod target;

@@ -5,7 +5,7 @@ use aspecta_view::file;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Where it goes.
+/// The file or directory that output goes to.
 pub struct Target {
     directory: PathBuf,
     name: String,

@@ -1,4 +1,4 @@
 //! Groups of aspects that changes of working mode join.
 
-/// What is to be said of a group whose aspects are not all proved to be one.
+/// The message about a group whose aspects are not all proved to be one.
 pub const AS_FAR: &str = "crossings certified, but not that each aspect is one in boxes as fine as these";

@@ -1,4 +1,4 @@
-//! What people, scripts and spreadsheets read of results: summaries, tables and JSON of what several commands find.
+//! Results for people, scripts and spreadsheets: summaries, tables and JSON of what several commands find.
 
 pub mod doubts;
 pub mod groups;

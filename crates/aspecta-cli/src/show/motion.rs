@@ -91,7 +91,7 @@ pub fn print(
     }
 }
 
-/// Which option may help.
+/// Returns which option may help.
 fn advice(refusal: &NoRoute) -> &'static str {
     match refusal {
         NoRoute::SerialMargin => " (--avoid M,0)",

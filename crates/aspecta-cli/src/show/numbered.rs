@@ -16,7 +16,7 @@ pub struct Numbered<'a> {
     pub group: Option<String>,
 }
 
-/// How many there are at `q`, and a table of them; `group` heads its last column.
+/// Prints how many there are at `q`, and a table of them; `group` heads its last column.
 pub fn print_table(
     out: &mut dyn Write,
     robot: &Robot,
@@ -50,7 +50,7 @@ pub fn print_table(
     Ok(())
 }
 
-/// The same as CSV.
+/// Prints the numbered solutions as CSV.
 pub fn print_csv(
     out: &mut dyn Write,
     robot: &Robot,
@@ -75,6 +75,6 @@ pub fn list(numbers: &[usize]) -> String {
     numbers.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")
 }
 
-/// What is said of solutions that are proved to lie in one aspect.
+/// The message about solutions that are proved to lie in one aspect.
 pub const IN_ONE: &str =
     "lie in one aspect: they can be changed into one another without a singularity (certified)";

@@ -105,7 +105,7 @@ fn uniqueness(out: &mut dyn Write, found: &Domains) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What was checked, and where it does not hold.
+/// Prints what was checked, and where it does not hold.
 fn checks(out: &mut dyn Write, pose: &Labels, whole: bool, found: &Domains) -> Result<(), Failure> {
     let agreement = &found.agreement;
     writeln!(
@@ -172,8 +172,8 @@ fn pairs(out: &mut dyn Write, what: &str, pairs: &[(usize, usize)]) -> Result<()
     Ok(writeln!(out, "regions that {what}: {listed}{dots}")?)
 }
 
-/// The regions whose image does not meet those of just so many others that each solution has one: some are not resolved, or
-/// neighbours are taken for one.
+/// The regions whose image does not meet those of just so many others that each solution has one: some are
+/// not resolved, or neighbours are taken for one.
 fn unmatched(found: &Domains) -> Vec<usize> {
     let partners = |number: usize| {
         found.coincidences.iter().filter(|c| [c.regions.0, c.regions.1].contains(&number)).count()

@@ -36,7 +36,7 @@ pub fn print(
     }
 }
 
-/// What JSON says of a vector asked about: in a file, the vector too, `pose` for `ik`, `q` for `fk`.
+/// The JSON answer to a vector; for vectors of a file it repeats the vector, `pose` for `ik`, `q` for `fk`.
 #[derive(Serialize)]
 struct Answer<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -150,7 +150,7 @@ fn table(robot: &Robot, unknown: Unknown, found: &[Found], degrees: bool) -> Tab
     table
 }
 
-/// What a 0 in a mode means.
+/// The explanation of a 0 in a mode.
 pub const SERIAL: &str =
     "0 in a mode: the leg is at a serial singularity, where its postures meet (or its joint is free)";
 

@@ -1,4 +1,4 @@
-//! What people read of a checked path.
+//! Text on a checked path, for people.
 
 use crate::args::path::PathArgs;
 use crate::failure::Failure;
@@ -94,7 +94,7 @@ fn ends(out: &mut dyn Write, robot: &Robot, check: &PathCheck, path: &PathArgs) 
     Ok(())
 }
 
-/// What fails, and where along the path.
+/// Returns a description of what fails, and where along the path.
 pub fn describe(robot: &Robot, obstacle: &Obstacle, joined: Joined) -> String {
     let failure = failure(robot, obstacle);
     if joined == Joined::None {

@@ -1,4 +1,4 @@
-//! Where the map of a robot's aspects comes from: a file, or an analysis.
+//! The source of the map of a robot's aspects: a file, or an analysis.
 
 use crate::args::budget;
 use crate::args::making::Making;
@@ -13,7 +13,7 @@ use aspecta::paving::{Control, Stop};
 use aspecta::robot::{FileError, Robot};
 use std::sync::atomic::Ordering;
 
-/// What a command is told by its first argument.
+/// The first argument of a command: a robot, or a map.
 pub enum Source {
     /// A robot, whose map is to be computed.
     Robot(Robot),
@@ -24,15 +24,15 @@ pub enum Source {
 /// Which aspects are wanted.
 #[derive(Clone, Copy, Default)]
 pub struct Wanted {
-    /// Those of this mode.
+    /// Only the aspects of this mode.
     pub mode: Option<WorkingMode>,
-    /// Those with this sign of det A.
+    /// Only the aspects with this sign of det A.
     pub det_a: Option<DetSign>,
     /// The one with this number.
     pub aspect: Option<usize>,
 }
 
-/// What part of a robot is looked at.
+/// The part of a robot that is looked at.
 #[derive(Clone, Debug, Default)]
 pub struct Part {
     /// Coordinates that are held, and their values.
@@ -100,7 +100,8 @@ impl Source {
     }
 }
 
-/// What is said of a file that is no map: unless it is called a robot file, it may have been meant for one.
+/// Returns the failure of a file that is no map: unless it is named like a robot file, it may have been meant
+/// as a map.
 fn neither(path: &str, failure: Failure) -> Failure {
     match failure {
         Failure::File(error @ FileError::Invalid(_)) if !path.ends_with(".toml") => Failure::Input(format!(
@@ -148,7 +149,8 @@ impl Making {
     }
 }
 
-/// How finely regions are found and checked, by the number of free coordinates and what the direct problem costs.
+/// Returns how finely regions are found and checked, by the number of free coordinates and what the direct
+/// problem costs.
 fn usual_options(robot: &Robot, free: usize) -> DomainOptions {
     let usual = DomainOptions::default();
     match (robot.dof(), free) {

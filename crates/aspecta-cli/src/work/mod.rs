@@ -1,4 +1,4 @@
-//! What several commands do with the library before anything is shown.
+//! Work that several commands do with the library before anything is shown.
 
 pub mod mapping;
 pub mod planning;

@@ -1,4 +1,4 @@
-//! What the commands that plan motions share: what they plan over, and what is written of a plan.
+//! The common part of commands that plan motions: what they plan over, and what is written of a plan.
 
 use super::timing;
 use super::watch::watched;
@@ -43,8 +43,8 @@ impl Analysing {
 const SAMPLES: u32 = 20_000;
 
 impl Planning {
-    /// What the ends of a motion alone tell, which is told before aspects are looked for: why there is none. For robots that are no
-    /// free bodies.
+    /// Returns the reason why there is no motion, if the two ends alone give one, before aspects are looked
+    /// for. Not for free bodies.
     pub fn refused(
         &self,
         robot: &Robot,
@@ -63,7 +63,7 @@ impl Planning {
         Ok(refusal.map(|refusal| Planned { result: Err(refusal), page: None }))
     }
 
-    /// How a robot that is no free body is analysed.
+    /// Returns how a robot that is no free body is analysed.
     pub fn paved(&self, robot: &Robot) -> Result<&Analysing, Failure> {
         match self.samples {
             None => Ok(&self.analysing),
@@ -74,7 +74,7 @@ impl Planning {
         }
     }
 
-    /// What `work` makes of a free body, with the effort its roadmaps may take.
+    /// Returns the result of `work` on a free body, with the effort its roadmaps may take.
     pub fn explore<T>(
         &self,
         work: impl FnOnce(&Effort, &Control<'_>) -> Result<T, Failure>,
@@ -102,7 +102,7 @@ pub fn plan_over_roadmap(
     }
 }
 
-/// What came of planning.
+/// The outcome of planning.
 pub struct Planned {
     /// The route, or why there is none.
     pub result: Result<Route, NoRoute>,

@@ -13,11 +13,12 @@ pub struct Found {
     pub query: Query,
     /// The answers.
     pub solutions: Vec<Solution>,
-    /// Of a direct problem: whether these are proved to be all.
+    /// Whether, for a direct problem, these are proved to be all.
     pub complete: Option<bool>,
 }
 
-/// All inverse solutions at a pose, given alone or in a line of a file: one bad row does not cost the others.
+/// Returns all inverse solutions at a pose, given alone or in a line of a file: one bad row does not cost the
+/// others.
 pub fn inverse(robot: &Robot, pose: &[f64], line: Option<u64>) -> Result<Vec<Solution>, Failure> {
     let solutions = robot.inverse(pose)?;
     if solutions.is_empty() {
@@ -28,7 +29,7 @@ pub fn inverse(robot: &Robot, pose: &[f64], line: Option<u64>) -> Result<Vec<Sol
     Ok(solutions)
 }
 
-/// All direct solutions of a joint vector, or those in a working mode.
+/// Returns all direct solutions of a joint vector, or those in a working mode.
 pub fn direct(robot: &Robot, query: Query, mode: Option<WorkingMode>) -> Result<Found, Failure> {
     let DirectSolutions { mut solutions, complete } =
         match (robot.direct_certified(&query.values), query.line) {
@@ -50,7 +51,7 @@ pub fn direct(robot: &Robot, query: Query, mode: Option<WorkingMode>) -> Result<
     Ok(Found { query, solutions, complete: Some(complete) })
 }
 
-/// Which legs do not reach `pose`, in a sentence.
+/// Returns which legs do not reach `pose`, in a sentence.
 fn out_of_reach(robot: &Robot, pose: &[f64]) -> Result<String, Failure> {
     let legs = robot.out_of_reach(pose)?.into_iter().map(|leg| {
         let unit = if leg.angle { "rad" } else { &robot.length_unit };

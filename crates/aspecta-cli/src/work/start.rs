@@ -10,7 +10,8 @@ use aspecta::robot::Robot;
 const TRIES: usize = 200_000;
 const ENOUGH: usize = 200;
 
-/// The configuration at a pose within joint limits and farthest from singularities, in `mode` if one is given.
+/// The configuration at a pose within joint limits and farthest from singularities, in `mode` if one is
+/// given.
 pub fn at(robot: &Robot, pose: &[f64], mode: Option<WorkingMode>) -> Result<Solution, Failure> {
     let solutions = solve::inverse(robot, pose, None)?;
     let best = best(robot, solutions, mode)?;
@@ -40,7 +41,8 @@ pub fn anywhere(robot: &Robot, mode: Option<WorkingMode>) -> Result<Solution, Fa
     })
 }
 
-/// Of the solutions within limits (and in `mode`) the one farthest from singularities, and how far it is.
+/// Returns, of the solutions within limits (and in `mode`), the one farthest from singularities, and how far
+/// it is.
 fn best(
     robot: &Robot,
     solutions: Vec<Solution>,

@@ -21,7 +21,7 @@ pub fn limits(robot: &Robot, speed: &str, acceleration: &str, degrees: bool) -> 
     })
 }
 
-/// One limit for each joint.
+/// Returns one limit for each joint.
 fn limit(robot: &Robot, option: &str, text: &str, degrees: bool) -> Result<Vec<f64>, Failure> {
     let joints = Columns::joints(robot);
     let numbers: Result<Vec<f64>, _> = text.split(',').map(|x| x.trim().parse()).collect();

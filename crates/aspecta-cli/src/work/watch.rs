@@ -12,7 +12,8 @@ use std::time::Duration;
 /// Set by Ctrl-C, once [`interrupts`] is called.
 static CANCELLED: AtomicBool = AtomicBool::new(false);
 
-/// Does long work on a number of threads (all cores if none is given), shows how far it has come, and lets Ctrl-C stop it.
+/// Does long work on a number of threads (all cores if none is given), shows how far it has come, and lets
+/// Ctrl-C stop it.
 pub fn watched<T>(threads: Threads, work: impl FnOnce(&Control<'_>) -> T) -> Result<T, Failure> {
     limit(threads)?;
     interrupts()?;

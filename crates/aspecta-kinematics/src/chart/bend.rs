@@ -1,7 +1,8 @@
-//! Where the legs of a platform that turns about a point fold, and the charts that open this up.
+//! The charts of orientations at which a leg of a platform that turns about a point folds.
 //!
-//! If the links of a leg are equal, v can come onto the motor's axis, and if they complete each other to half a turn, onto its other end. There the motor is
-//! free: one orientation has a whole circle of q_j. In the leg's own joint angles nothing is special there.
+//! If the links of a leg are equal, v can come onto the motor's axis, and if they complete each other to half
+//! a turn, onto its other end. There the motor is free: one orientation has a whole circle of q_j. In the
+//! leg's own joint angles nothing is special there.
 
 use super::chain;
 use super::{LEAST, largest_apart};
@@ -10,18 +11,19 @@ use aspecta_robot::legs::Spherical;
 use aspecta_robot::num::{Interval, dot};
 use aspecta_robot::{Robot, Window};
 
-/// How near (rad) v comes to the motor's axis if the leg counts as one that folds: else the boxes round the nearest orientations would have to be very small.
+/// How near (rad) v comes to the motor's axis if the leg counts as one that folds: else the boxes round the
+/// nearest orientations would have to be very small.
 const NEAR: f64 = 0.05;
 
-/// The charts of the folds of all legs but that of the chart `all`, which holds its own; each so small that no orientation is in two of them, or is a
-/// fold of that leg too. None if two legs can fold at once.
+/// The charts of the folds of all legs but that of the chart `all`, which holds its own; each so small that
+/// no orientation is in two of them, or is a fold of that leg too. None if two legs can fold at once.
 pub(super) fn bends(robot: &Robot, all: &Chain) -> Vec<Chain> {
     let found = largest_apart(|size| caps(robot, size), |a: &Cap, b: &Cap| a.is_apart_from(b, robot));
     found.into_iter().map(|cap| cap.chain).filter(|chain| chain.leg != all.leg).collect()
 }
 
-/// The legs (from 0) that can fold where no chart opens it up: other ones than that of the chart of all configurations, if two legs can fold at once.
-/// Boxes there are never decided.
+/// The legs (from 0) that can fold where no chart opens it up: other ones than that of the chart of all
+/// configurations, if two legs can fold at once. Boxes there are never decided.
 pub fn uncharted_folds(robot: &Robot, window: &Window) -> Vec<usize> {
     let Some(all) = chain::of(robot, window) else { return Vec::new() };
     let charted = bends(robot, &all);
@@ -68,7 +70,8 @@ impl Cap {
         [true, false].into_iter().filter_map(cap).collect()
     }
 
-    /// Whether no orientation is in both, by the triangle inequality on the sphere; the twentieth to spare is far beyond rounding.
+    /// Whether no orientation is in both, by the triangle inequality on the sphere; the twentieth to spare is
+    /// far beyond rounding.
     fn is_apart_from(&self, other: &Self, robot: &Robot) -> bool {
         let joint = |cap: &Self| robot.legs[cap.chain.leg].attachment.map(|x| x.mid());
         let between = |x: [f64; 3], y: [f64; 3]| dot(&x, &y).clamp(-1.0, 1.0).acos();
@@ -96,7 +99,8 @@ mod tests {
         charts(robot, &robot.slice(&[]).unwrap()).iter().map(Chart::leg).collect()
     }
 
-    /// All right angles but in general position, so that each leg folds at both ends of its motor's axis, and no two at once.
+    /// Returns a robot with right angles only, in general position, so that each leg folds at both ends of
+    /// its motor's axis, and no two at once.
     fn six_folds() -> Robot {
         let mut robot = folding();
         for (leg, joint) in
@@ -123,7 +127,8 @@ mod tests {
         assert_eq!(uncharted_folds(&eye, &eye.slice(&[]).unwrap()), [1, 2]);
     }
 
-    /// A chart covers an orientation just if the elbow is as near to its end as the chart says; and no two cover the same.
+    /// A chart covers an orientation just if the elbow is as near to its end as the chart says; and no two
+    /// cover the same.
     #[test]
     fn charts_cover_what_they_hold() {
         let robot = six_folds();

@@ -7,7 +7,8 @@ use aspecta_robot::legs::{Closure, Spherical};
 use aspecta_robot::num::{Interval, Scalar, dot, each};
 use aspecta_robot::{Actuator, Platform, Robot, Window};
 
-/// A function of leg j at an orientation: where it is positive and the leg closes, the chart covers the orientation.
+/// A function of leg j at an orientation: where it is positive and the leg closes, the chart covers the
+/// orientation.
 pub(super) fn cover<T: Scalar, const D: usize>(bend: &Bend, actuator: &Actuator, span: &[T; D]) -> T {
     let [(cos_a, sin_a), (cos_b, sin_b)] = angles_of(actuator);
     let across = sin_a * sin_b * Interval::point(bend.half_width).sin_cos().1;
@@ -60,7 +61,8 @@ pub(super) fn at<T: Scalar, const D: usize, const N: usize>(
     (placement, legs)
 }
 
-/// Coordinates, in the chart that holds all configurations, that hold those of a placement: where sin ψ ≥ 0, and where sin ψ ≤ 0.
+/// Coordinates, in the chart that holds all configurations, that hold those of a placement: where sin ψ ≥ 0,
+/// and where sin ψ ≤ 0.
 pub fn coordinates<const D: usize, const N: usize>(
     chain: &Chain,
     robot: &Robot,
@@ -89,7 +91,8 @@ struct Links<T, const D: usize> {
     w: [T; D],
     /// The platform's joint.
     v: [T; D],
-    /// What is left of three perpendicular axes at the joint: m along the elbow's motion, and `across` = v × m.
+    /// The two other perpendicular axes at the joint, beside v: m along the elbow's motion, and `across` = v
+    /// × m.
     m: [T; D],
     across: [T; D],
     /// sin a sin b, the greatest |B_jj|.
@@ -139,7 +142,8 @@ mod tests {
 
     const SPHERE: &str = include_str!("../../../aspecta/tests/fixtures/sphere.toml");
 
-    /// Every point of the chart is a configuration: it closes leg j in the posture that sin ψ says, and there the robot is what it is at the pose.
+    /// Every point of the chart is a configuration: it closes leg j in the posture that sin ψ says, and there
+    /// the robot is what it is at the pose.
     #[test]
     fn points_are_configurations() {
         let robot = Robot::from_toml(SPHERE, "sphere.toml").unwrap();

@@ -66,11 +66,12 @@ pub(crate) fn cover<T: Scalar, const D: usize>(fold: &Fold, leg: &LegClosure<T, 
     margins
 }
 
-/// The folds of a robot that need a chart of their own, each with a chart small enough to be disjoint from the others; legs
-/// whose folds cannot be told apart get none.
+/// The folds of a robot that need a chart of their own, each with a chart small enough to be disjoint from
+/// the others; legs whose folds cannot be told apart get none.
 ///
-/// A fold is charted if the platform's translations are free in `window` and C can come onto the crank's axis, or so
-/// near (|L − M| below a twentieth of L + M in the plane) that the pose would need very small boxes.
+/// A fold is charted if the platform's translations are free in `window` and C can come onto the crank's
+/// axis, or so near (|L − M| below a twentieth of L + M in the plane) that the pose would need very small
+/// boxes.
 pub fn folds(robot: &Robot, window: &Window) -> Vec<Fold> {
     let translations = match robot.platform {
         Platform::PlanePoint | Platform::PlaneBody => 2,
@@ -131,7 +132,8 @@ impl Place {
         ranges.into_iter().map(place).collect()
     }
 
-    /// Whether no pose is in both charts, by the triangle inequality; the twentieth to spare is far beyond rounding.
+    /// Whether no pose is in both charts, by the triangle inequality; the twentieth to spare is far beyond
+    /// rounding.
     fn is_apart_from(&self, other: &Self, robot: &Robot, window: &Window) -> bool {
         let centre = |place: &Self| {
             let leg = &robot.legs[place.fold.leg];

@@ -32,7 +32,8 @@ impl<'a, T: Scalar, const D: usize, const N: usize> Configuration<'a, T, D, N> {
         self.heights[j][usize::from(self.mode.sign(j) < 0)]
     }
 
-    /// How far inside a limit it is; only the sign has a meaning. Of singularities, which need more than this, nothing is said.
+    /// Returns how far inside a limit it is; only the sign has a meaning. Of singularities, which need more
+    /// than this, nothing is said.
     pub fn margin(&self, constraint: Constraint) -> T {
         match constraint {
             Constraint::Limit(j, k) => {
@@ -42,8 +43,8 @@ impl<'a, T: Scalar, const D: usize, const N: usize> Configuration<'a, T, D, N> {
         }
     }
 
-    /// What [`Self::margin`] is a multiple of: divided by it, it is one and the same function of the configuration, whatever coordinates it
-    /// was computed in.
+    /// Returns the divisor of [`Self::margin`] that makes it one and the same function of the
+    /// configuration, whatever coordinates it was computed in.
     pub fn unit(&self, constraint: Constraint) -> T {
         match constraint {
             Constraint::Limit(j, k) => unit(&self.robot.legs[j].limits[k], &self.leg(j), self.height(j)),

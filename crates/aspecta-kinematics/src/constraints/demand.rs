@@ -1,4 +1,4 @@
-//! What is asked of a configuration: to lie in an aspect, and if wanted well away from its singularities.
+//! Demands on a configuration: to lie in an aspect, and if wanted well away from its singularities.
 
 use super::margins::{least_reach, unit_of_det};
 use super::{Configuration, Constraint, Kind, Margins};
@@ -9,24 +9,24 @@ use aspecta_robot::WorkingMode;
 use aspecta_robot::num::{Interval, Scalar, each};
 use std::cell::LazyCell;
 
-/// What is asked of the configurations of a path.
+/// The demand on the configurations of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Demand {
     /// The working mode.
     pub mode: WorkingMode,
     /// The sign of det A: +1 or −1.
     pub sign: i8,
-    /// What they stay away from singularities.
+    /// The margins by which they stay away from singularities.
     pub margins: Margins,
     /// Whether they keep the limits of the machine.
     pub limits: bool,
-    /// A leg (from 0) that may come to its serial singularity: all else is asked of both its postures, wherever they exist and where they
-    /// meet.
+    /// A leg (from 0) that may come to its serial singularity: all else is asked of both its postures,
+    /// wherever they exist and where they meet.
     pub crossing: Option<usize>,
 }
 
 impl Demand {
-    /// To lie in S_{s,σ}, however near its boundary.
+    /// Returns the demand to lie in S_{s,σ}, however near its boundary.
     pub fn class(mode: WorkingMode, sign: i8) -> Self {
         Self { mode, sign, margins: Margins::default(), limits: true, crossing: None }
     }
@@ -46,14 +46,15 @@ pub struct Constraints<'a, T, const D: usize, const N: usize> {
 }
 
 impl<'a, T: Scalar, const D: usize, const N: usize> Constraints<'a, T, D, N> {
-    /// Those at a pose.
+    /// Returns the constraints at a pose.
     pub fn new(robot: &'a Robot, placement: &'a Placement<T, D>, legs: &'a [LegClosure<T, D>; N]) -> Self {
         Self { robot, placement, legs, flat: 0 }
     }
 
-    /// Visits functions that are all positive if and only if the demand is met: with no margins and no crossing they are those whose
-    /// common positivity region is S_{s,σ} — H_j, c_k and σ det A (times the weights). First come the reaches, without which the others
-    /// do not exist. `visit` returns whether to go on.
+    /// Visits functions that are all positive if and only if the demand is met: with no margins and no
+    /// crossing they are those whose common positivity region is S_{s,σ} — H_j, c_k and σ det A (times the
+    /// weights). First come the reaches, without which the others do not exist. `visit` returns whether to go
+    /// on.
     pub fn visit(&self, demand: &Demand, mut visit: impl FnMut(Constraint, T) -> bool) {
         let Self { robot, placement, legs, .. } = *self;
         for constraint in Constraint::of(robot) {

@@ -33,8 +33,8 @@ impl<'a, T: Scalar, const D: usize> LegAt<'a, T, D> {
     }
 }
 
-/// c_k > 0: how far inside `limit` the leg is in posture s, where `sh` = s h. Zero at the limit. The unit differs
-/// from limit to limit; only the sign has a meaning.
+/// c_k > 0: how far inside `limit` the leg is in posture s, where `sh` = s h. Zero at the limit. The unit
+/// differs from limit to limit; only the sign has a meaning.
 pub fn margin<T: Scalar, const D: usize>(
     limit: &Limit,
     at: &LegAt<'_, T, D>,
@@ -68,7 +68,7 @@ pub fn margin<T: Scalar, const D: usize>(
     }
 }
 
-/// What [`margin`] is a multiple of: divided by it, the margin is one and the same function of the configuration, whatever
+/// Returns the divisor of [`margin`] that makes it one and the same function of the configuration, whatever
 /// coordinates it was computed in. Positive wherever the leg closes strictly.
 pub fn unit<T: Scalar, const D: usize>(limit: &Limit, at: &LegAt<'_, T, D>, sh: T) -> T {
     match limit {

@@ -9,8 +9,8 @@ use aspecta_robot::num::{Interval, Scalar, dot, each};
 use aspecta_robot::{Platform, Robot};
 use serde::{Deserialize, Serialize};
 
-/// How far configurations must stay from the singularities. Neither measure has a unit, and neither changes when the robot is moved,
-/// scaled or its legs are renumbered.
+/// How far configurations must stay from the singularities. Neither measure has a unit, and neither changes
+/// when the robot is moved, scaled or its legs are renumbered.
 ///
 /// - *parallel*: |det Â| ≥ `parallel`, Â being A with every row divided by the force along its rod and moments by the
 ///   [characteristic length](Robot::characteristic_length) (for a platform that only turns, every row by its norm). 0 at a parallel
@@ -18,9 +18,9 @@ use serde::{Deserialize, Serialize};
 /// - *serial*: |B_jj| / max |B_jj| ≥ `serial` for every leg j: [`State::serial_measures`](crate::State::serial_measures). 0 at a serial singularity, at most 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Margins {
-    /// Of |det Â|.
+    /// The least |det Â|.
     pub parallel: f64,
-    /// Of |B_jj| / max |B_jj|.
+    /// The least |B_jj| / max |B_jj|.
     pub serial: f64,
 }
 
@@ -31,7 +31,8 @@ impl Margins {
     }
 }
 
-/// The measures of [`Margins`] at a pose where all legs close: det Â with the sign of det A, and |B_jj| / max |B_jj| per leg, 1 for struts.
+/// The measures of [`Margins`] at a pose where all legs close: det Â with the sign of det A, and |B_jj| / max
+/// |B_jj| per leg, 1 for struts.
 pub fn measures<T: Scalar, const D: usize, const N: usize>(
     robot: &Robot,
     placement: &Placement<T, D>,
@@ -55,7 +56,7 @@ pub(super) fn least_reach(robot: &Robot, j: usize, least: f64) -> Interval {
     most * Interval::point(least).square()
 }
 
-/// What the weighted det A is a multiple of: divided by it, it is det Â.
+/// Returns the divisor that makes the weighted det A into det Â.
 pub(super) fn unit_of_det<T: Scalar, const D: usize, const N: usize>(
     robot: &Robot,
     legs: &[LegClosure<T, D>; N],
@@ -75,8 +76,8 @@ pub(super) fn unit_of_det<T: Scalar, const D: usize, const N: usize>(
     unit
 }
 
-/// What det A of a robot whose rods bear unit forces is divided by for its moments: the characteristic length once for each angle, unless the
-/// platform only turns.
+/// Returns the divisor of det A for the moments in it, of a robot whose rods bear unit forces: the
+/// characteristic length once for each angle, unless the platform only turns.
 pub fn unit_of_moments(robot: &Robot) -> Interval {
     let turning = robot.platform == Platform::TurningBody;
     let angles = robot.platform.coordinates().iter().filter(|c| c.angle).count();

@@ -1,4 +1,4 @@
-//! What searches in several charts found, as poses.
+//! The findings of searches in several charts, as poses.
 
 use super::search::{Findings, Search};
 use super::{Cusps, Doubt, Undecided};
@@ -10,13 +10,13 @@ use aspecta_robot::num::Interval;
 /// A cusp that has been found.
 pub(super) struct Known<const N: usize> {
     chart: Chart,
-    /// Where it is the only one, in the chart.
+    /// The box of the chart in which it is the only one.
     alone: [Interval; N],
     pub pose: [Interval; N],
 }
 
-/// Adds what a search found, each cusp once: two that were proved to be alone are the same if one lies in the other's box, and different
-/// if their enclosures have no pose in common.
+/// Adds what a search found, each cusp once: two that were proved to be alone are the same if one lies in the
+/// other's box, and different if their enclosures have no pose in common.
 pub(super) fn collect<const D: usize, const N: usize>(
     search: &Search<'_, D, N>,
     window: &Window,

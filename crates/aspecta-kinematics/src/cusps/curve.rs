@@ -14,15 +14,16 @@ use std::f64::consts::PI;
 
 /// Slices in which curves are looked for.
 const SLICES: usize = 12;
-/// Greatest step along a curve, in coordinates of order one (lengths by [`Robot::characteristic_length`], angles in rad).
+/// Greatest step along a curve, in coordinates of order one (lengths by [`Robot::characteristic_length`],
+/// angles in rad).
 const GREATEST: f64 = 0.05;
 /// Steps smaller than this mean that the curve cannot be followed.
 const LEAST: f64 = 1e-6;
 /// Points of a curve.
 const MOST: usize = 20_000;
 
-/// The curves of cusps that pass through some slices. *Numerical*: the cusps of the slices are certified, what lies between
-/// them is followed in floating point, and curves that meet no slice are not found.
+/// The curves of cusps that pass through some slices. *Numerical*: the cusps of the slices are certified,
+/// what lies between them is followed in floating point, and curves that meet no slice are not found.
 #[derive(Clone, Debug, Serialize)]
 pub struct CuspCurves {
     /// Robot name.
@@ -46,7 +47,7 @@ pub struct CuspCurve {
     pub mode: WorkingMode,
     /// Points along it, at most 0.05 apart (lengths by [`Robot::characteristic_length`], angles in rad).
     pub points: Vec<CurvePoint>,
-    /// What ends it, at the first point and at the last.
+    /// The ends of the curve, at the first point and at the last.
     pub ends: [CurveEnd; 2],
 }
 
@@ -61,7 +62,7 @@ pub struct CurvePoint {
     pub within_limits: bool,
 }
 
-/// What ends a curve.
+/// The way in which a curve ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum CurveEnd {
@@ -218,7 +219,7 @@ impl<'a, const D: usize> Tracker<'a, D> {
         None
     }
 
-    /// From `start` on: the points, and what ended it.
+    /// Follows the curve from `start` on; returns its points, and what ended it.
     fn follow(&self, start: Place) -> (Vec<Vector3<f64>>, CurveEnd) {
         let mut points = vec![start.at];
         let (mut here, mut step) = (start, 0.2 * GREATEST);
@@ -248,7 +249,8 @@ impl<'a, const D: usize> Tracker<'a, D> {
         (points, CurveEnd::Lost)
     }
 
-    /// Why the curve goes on no further: in X it has a kink where a leg's reach, or the weight of its row, is all but zero.
+    /// Why the curve goes on no further: in X it has a kink where a leg's reach, or the weight of its row, is
+    /// all but zero.
     fn end(&self, here: &Place) -> CurveEnd {
         const SMALL: f64 = 1e-3;
         let y: [f64; 3] = here.at.component_mul(&self.unit).into();
@@ -282,7 +284,7 @@ impl<'a, const D: usize> Tracker<'a, D> {
         Vector3::from_fn(|k, _| nearest(k))
     }
 
-    /// How far `at` is from the segments of a curve.
+    /// Returns how far `at` is from the segments of a curve.
     fn distance(&self, curve: &CuspCurve, at: &Vector3<f64>) -> f64 {
         let from = |point: &CurvePoint| {
             self.gap(&Vector3::from_column_slice(&point.pose).component_div(&self.unit), at)

@@ -1,4 +1,4 @@
-//! What holds at a cusp, for any scalar.
+//! The equations of a cusp, for any scalar.
 
 use crate::chart::{Chart, Coordinates};
 use crate::modal::LegClosure;
@@ -8,14 +8,15 @@ use aspecta_robot::{Leg, Platform, Robot, WorkingMode};
 
 /// The equations of cusps in one working mode, in the coordinates of one chart.
 ///
-/// Row i of A is taken times the leg's weight wᵢ ≥ 0, so that nothing is divided. With u and v a row and a column of
-/// its adjugate,
+/// Row i of A is taken times the leg's weight wᵢ ≥ 0, so that nothing is divided. With u and v a row and a
+/// column of its adjugate,
 ///
 /// > det A = 0,  κ = Σᵢ uᵢ wᵢ f̈ᵢ(v) = 0,  f_k(X, q_k) = 0 for the joint that is held.
 ///
-/// f̈ᵢ(v) is the second derivative of fᵢ, q fixed, along the motion of constant twist v. Any other motion that starts with v
-/// adds A a to f̈, a its acceleration, which u does not see where det A = 0. So at rank n − 1 κ is a non-zero multiple of
-/// u·∂²f/∂X²(v, v), unless the column or the row was chosen where it is zero ([`Values::pivot`]).
+/// f̈ᵢ(v) is the second derivative of fᵢ, q fixed, along the motion of constant twist v. Any other motion
+/// that starts with v adds A a to f̈, a its acceleration, which u does not see where det A = 0. So at rank n
+/// − 1 κ is a non-zero multiple of u·∂²f/∂X²(v, v), unless the column or the row was chosen where it is zero
+/// ([`Values::pivot`]).
 ///
 /// All of it is a polynomial in d and h = √H: continuous up to the serial singularities.
 pub(super) struct System<'a, const D: usize> {
@@ -31,8 +32,8 @@ pub(super) struct System<'a, const D: usize> {
 pub(super) struct Values<T, const N: usize> {
     /// det A, κ and the held leg's equation (n = 3), all zero at a cusp.
     pub equations: [T; N],
-    /// Negative where the configuration does not exist in this mode: Hᵢ, or sᵢ Bᵢᵢ where Bᵢᵢ is at hand. Positive
-    /// off the serial singularities.
+    /// Negative where the configuration does not exist in this mode: Hᵢ, or sᵢ Bᵢᵢ where Bᵢᵢ is at hand.
+    /// Positive off the serial singularities.
     pub closing: [T; N],
     /// Zero where qᵢ is free; else 1, or positive.
     pub weights: [T; N],
@@ -109,13 +110,14 @@ impl<'a, const D: usize> System<'a, D> {
         all.max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or((0, 0))
     }
 
-    /// What makes pose coordinates numbers of order one: the robot's size, or a radian.
+    /// Returns the units in which pose coordinates are of order one: the robot's size, or a radian.
     pub fn units<const N: usize>(&self) -> [f64; N] {
         let (coordinates, length) = (self.robot.platform.coordinates(), self.robot.characteristic_length());
         std::array::from_fn(|k| if coordinates[k].angle { 1.0 } else { length })
     }
 
-    /// The twist v with A v ≈ 0 at the singular pose `y`, of unit length when lengths are in [`System::units`].
+    /// The twist v with A v ≈ 0 at the singular pose `y`, of unit length when lengths are in
+    /// [`System::units`].
     pub fn kernel<const N: usize>(&self, y: &[f64; N]) -> [f64; N] {
         let unit = self.units::<N>();
         let v = self.cofactors(y)[self.pivot(y).0];
@@ -144,7 +146,8 @@ impl<'a, const D: usize> System<'a, D> {
         }
     }
 
-    /// wᵢ f̈ᵢ(v): with C′ and C″ the velocity and the acceleration of the leg's end, ∂²f/∂C²(C′, C′) + ∂f/∂C · C″.
+    /// wᵢ f̈ᵢ(v): with C′ and C″ the velocity and the acceleration of the leg's end, ∂²f/∂C²(C′, C′) + ∂f/∂C
+    /// · C″.
     fn second<T: Scalar, const N: usize>(&self, i: usize, leg: &LegForce<T, D>, v: &[T; N]) -> T {
         let platform = self.robot.platform;
         let coordinates = platform.coordinates();
@@ -173,7 +176,8 @@ fn eliminated<T: Scalar, const D: usize>(leg: &Leg, at: &LegClosure<T, D>, sign:
     LegForce { gradient: out_of_frame(leg, &local), arm: at.arm, weight: at.closure.weight, closing }
 }
 
-/// The velocity of the end of `arm` when the platform has the twist `v`, by the duality of twists and wrenches.
+/// The velocity of the end of `arm` when the platform has the twist `v`, by the duality of twists and
+/// wrenches.
 fn velocity<T: Scalar, const D: usize, const N: usize>(
     platform: Platform,
     arm: &[T; D],
@@ -186,8 +190,8 @@ fn velocity<T: Scalar, const D: usize, const N: usize>(
     })
 }
 
-/// ∂²f/∂d² of a leg, in its own frame. Every leg equation is of second degree at most in d, and q is not in its terms of
-/// second degree: so it is a constant, and `d` and `q` are free.
+/// ∂²f/∂d² of a leg, in its own frame. Every leg equation is of second degree at most in d, and q is not in
+/// its terms of second degree: so it is a constant, and `d` and `q` are free.
 pub(super) fn curvature<const D: usize>(leg: &Leg, d: [f64; D], q: f64) -> [[Interval; D]; D] {
     let inner = |k: usize| Jet::<Interval, D>::variable(Interval::point(d[k]), k);
     let outer: [Jet<Jet<Interval, D>, D>; D] = std::array::from_fn(|k| Jet::variable(inner(k), k));

@@ -29,7 +29,7 @@ pub(super) struct Found<const N: usize> {
     pub tight: Region<N>,
 }
 
-/// What a search found.
+/// The findings of a search.
 #[derive(Clone, Debug)]
 pub(super) struct Findings<const N: usize> {
     pub found: Vec<Found<N>>,
@@ -49,7 +49,7 @@ impl<const N: usize> Findings<N> {
     }
 }
 
-/// What became of a box.
+/// The outcome of looking at a box.
 enum Outcome<const N: usize> {
     Empty,
     Found(Found<N>),
@@ -57,17 +57,18 @@ enum Outcome<const N: usize> {
     Doubtful(Region<N>, Doubt),
 }
 
-/// Where to look.
+/// A search for cusps: the system, and the box to search.
 pub(super) struct Search<'a, const D: usize, const N: usize> {
     pub system: System<'a, D>,
-    /// Of the chart.
+    /// The window of the chart.
     pub window: Window,
     /// Charts that are searched by themselves.
     pub elsewhere: &'a [Fold],
 }
 
 impl<const D: usize, const N: usize> Search<'_, D, N> {
-    /// Searches the window, level by level, with at most `budget` boxes. Deterministic, whatever the number of threads.
+    /// Searches the window, level by level, with at most `budget` boxes. Deterministic, whatever the number
+    /// of threads.
     pub fn run(&self, budget: u64, control: &Control<'_>) -> Findings<N> {
         let whole: Region<N> =
             std::array::from_fn(|k| Interval::new(self.window.ranges[k].0, self.window.ranges[k].1));
@@ -149,10 +150,11 @@ impl<const D: usize, const N: usize> Search<'_, D, N> {
         })
     }
 
-    /// One step of pruning: `None` if no cusp is in the box.
+    /// Returns one step of pruning: `None` if no cusp is in the box.
     ///
-    /// The centred form f(c) + S t ∋ f(x), x = c + r∘t, excludes the box or leaves the linear equations
-    /// Y f(c) + Y S t ∋ 0, Y ≈ S⁻¹, which bound one tₖ after the other (Hansen and Sengupta 1981): no zero is lost.
+    /// The centred form f(c) + S t ∋ f(x), x = c + r∘t, excludes the box or leaves the linear equations Y
+    /// f(c) + Y S t ∋ 0, Y ≈ S⁻¹, which bound one tₖ after the other (Hansen and Sengupta 1981): no zero is
+    /// lost.
     fn contract(&self, region: &Region<N>) -> Option<Contracted<N>> {
         let centre = region.map(Interval::mid);
         let radius: [f64; N] = std::array::from_fn(|k| {
@@ -201,9 +203,9 @@ impl<const D: usize, const N: usize> Search<'_, D, N> {
 
     /// The cusp of a box, if it is proved to be one and alone in a box a little larger.
     ///
-    /// By Krawczyk's theorem (Neumaier 1990, 5.1.8): if m − Y f(m) + (I − Y F(X))(X − m), F(X) enclosing f′ over X, lies in the interior of
-    /// X, then f has exactly one zero in X. That zero is a cusp if the pivot is not zero in X, and an ordinary one,
-    /// at which exactly three solutions meet, as f′ is regular.
+    /// By Krawczyk's theorem (Neumaier 1990, 5.1.8): if m − Y f(m) + (I − Y F(X))(X − m), F(X) enclosing f′
+    /// over X, lies in the interior of X, then f has exactly one zero in X. That zero is a cusp if the pivot
+    /// is not zero in X, and an ordinary one, at which exactly three solutions meet, as f′ is regular.
     fn certify(&self, region: &Region<N>) -> Option<Found<N>> {
         const STEPS: usize = 12;
         let grown = |k: usize| {
@@ -268,7 +270,7 @@ impl<const D: usize, const N: usize> Search<'_, D, N> {
     }
 }
 
-/// What is left of a box.
+/// A box after contraction.
 struct Contracted<const N: usize> {
     region: Region<N>,
     /// Whether every bound moved inward.

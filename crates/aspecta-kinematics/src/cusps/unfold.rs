@@ -1,11 +1,12 @@
-//! What a small step in the joint space makes of a cusp.
+//! The direct solutions into which a cusp splits by a small step in the joint space.
 
 use super::equations::System;
 use crate::Kinematics;
 use aspecta_robot::num::{Jet, without_turns};
 use serde::Serialize;
 
-/// Two joint vectors beside that of a cusp, and the direct solutions they have near it: three on one side, one on the other.
+/// Two joint vectors beside that of a cusp, and the direct solutions they have near it: three on one side,
+/// one on the other.
 #[derive(Clone, Debug, Serialize)]
 pub struct Unfolding {
     /// A joint vector with three direct solutions near the cusp.
@@ -23,8 +24,9 @@ const NEAR: f64 = 40.0;
 
 /// Steps from the cusp across the singular surface det A = 0, once to either side.
 ///
-/// With X = X₀ + s v + w the leg equations reduce to c s³ + a s + … = 0, where a is the derivative of det A along w,
-/// but for a factor. So the joint vector of X₀ + w has three solutions near X₀ for one sign of w, and one for the other.
+/// With X = X₀ + s v + w the leg equations reduce to c s³ + a s + … = 0, where a is the derivative of det A
+/// along w, but for a factor. So the joint vector of X₀ + w has three solutions near X₀ for one sign of w,
+/// and one for the other.
 pub(super) fn unfold<const D: usize, const N: usize>(
     system: &System<'_, D>,
     pose: &[f64; N],

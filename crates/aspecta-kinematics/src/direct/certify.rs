@@ -11,8 +11,8 @@ use nalgebra::SMatrix;
 ///
 /// with Y ≈ f′(m)⁻¹ and F(X) an enclosure of f′ over X.
 ///
-/// *Theorem* (Krawczyk 1969; Neumaier, *Interval Methods for Systems of Equations*, 1990, theorem 5.1.8). If K(X)
-/// lies in the interior of X, then f has exactly one zero in X, and f′ is regular there.
+/// *Theorem* (Krawczyk 1969; Neumaier, *Interval Methods for Systems of Equations*, 1990, theorem 5.1.8). If
+/// K(X) lies in the interior of X, then f has exactly one zero in X, and f′ is regular there.
 ///
 /// Robot constants and q are intervals here, so this holds for every robot and every q inside them.
 struct Krawczyk<'a, const D: usize, const N: usize> {

@@ -1,13 +1,14 @@
 //! Orientations at which the eliminant of a plane body cannot be told from zero.
 //!
-//! The eliminant F has a double root for two reasons: two poses meet (a parallel singularity), or two poses of
-//! one orientation, far apart and each regular, make both linear equations one (Δ = 0). To the second, F is blind.
-//! Here u is found from one line u · w = g and the circle, on either side of w, and what is left of the system is
+//! The eliminant F has a double root for two reasons: two poses meet (a parallel singularity), or two poses
+//! of one orientation, far apart and each regular, make both linear equations one (Δ = 0). To the second, F
+//! is blind. Here u is found from one line u · w = g and the circle, on either side of w, and what is left of
+//! the system is
 //!
 //! > h±(φ) = u±(φ) · w′ − g′,
 //!
-//! a function of φ alone, for another line (w′, g′). Its roots are the poses on that side, and they are simple
-//! wherever the pose is regular.
+//! a function of φ alone, for another line (w′, g′). Its roots are the poses on that side, and they are
+//! simple wherever the pose is regular.
 
 use super::locked::Locked;
 use super::triangle::{Complex, Lines, Triangle, conjugate_times, dot, norm2};
@@ -16,7 +17,7 @@ use arrayvec::ArrayVec;
 use aspecta_robot::Platform;
 use aspecta_robot::num::{Interval, Jet, Scalar};
 
-/// What is known of the poses with an orientation in some range.
+/// The knowledge of the poses whose orientation lies in some range.
 enum Known {
     /// There is exactly one near each of these.
     Poses(ArrayVec<[f64; 3], 2>),
@@ -44,8 +45,8 @@ const FINEST: f64 = 1e-14;
 
 /// Adds to `roots` the poses with orientation in `phi` and counts them if it can.
 ///
-/// The range is cut until every part is settled or more than a few parts stay open at once, which is what poses
-/// that meet do; the solutions there are then approximated and their number stays open.
+/// The range is cut until every part is settled or more than a few parts stay open at once, which is what
+/// poses that meet do; the solutions there are then approximated and their number stays open.
 pub(super) fn resolve(
     legs: &[Locked],
     triangle: &Triangle<Interval>,
@@ -117,8 +118,8 @@ fn halves(phi: Interval) -> [Interval; 2] {
 }
 
 impl Problem<'_> {
-    /// Whether `phi` holds an orientation at which, as far as double precision can tell, nothing ties down (x, y)
-    /// but ‖u‖ = R₁.
+    /// Whether `phi` holds an orientation at which, as far as double precision can tell, nothing ties down
+    /// (x, y) but ‖u‖ = R₁.
     fn stays_free(&self, phi: Interval) -> bool {
         matches!(self.examine(phi), Known::Open { free: true })
             && (phi.width() < FINEST || halves(phi).into_iter().any(|part| self.stays_free(part)))
@@ -160,8 +161,9 @@ impl Problem<'_> {
         Known::Poses(poses)
     }
 
-    /// The poses between the first and the last of `cuts` at which the equations hold to rounding: where h is zero,
-    /// and where it turns without reaching zero; or, where so many poses meet that h is no guide, the nearest.
+    /// The poses between the first and the last of `cuts` at which the equations hold to rounding: where h is
+    /// zero, and where it turns without reaching zero; or, where so many poses meet that h is no guide, the
+    /// nearest.
     fn approximate(&self, cuts: &[f64], roots: &mut Roots<3>) -> Result<(), SelfMotion> {
         roots.at_most = None;
         let known = roots.poses.len();
@@ -191,8 +193,8 @@ impl Problem<'_> {
         if roots.poses.len() == known { self.meeting(cuts, roots) } else { Ok(()) }
     }
 
-    /// The pose where several poses meet and all struts are parallel: every line touches the circle, so that h is on the
-    /// brink of existence. What is left is to look for the orientation of least residual.
+    /// The pose where several poses meet and all struts are parallel: every line touches the circle, so that
+    /// h is on the brink of existence. What is left is to look for the orientation of least residual.
     fn meeting(&self, cuts: &[f64], roots: &mut Roots<3>) -> Result<(), SelfMotion> {
         let residual = |phi: f64, at: usize, side: f64| {
             let (u, z) = self.start(phi, at, side);
@@ -232,8 +234,8 @@ impl Problem<'_> {
     }
 }
 
-/// Halves [lo, hi] until no double lies between; `first` holds at lo and not at hi, and at the point returned but
-/// not at the next.
+/// Halves [lo, hi] until no double lies between; `first` holds at lo and not at hi, and at the point returned
+/// but not at the next.
 fn bisect(mut lo: f64, mut hi: f64, first: impl Fn(f64) -> bool) -> f64 {
     loop {
         let middle = 0.5 * (lo + hi);
@@ -244,7 +246,7 @@ fn bisect(mut lo: f64, mut hi: f64, first: impl Fn(f64) -> bool) -> f64 {
     }
 }
 
-/// Where `f` is least in [lo, hi], by thirds: f falls, then rises.
+/// Returns the place in [lo, hi] where `f`, which falls and then rises, is least, by cutting into thirds.
 fn minimise(mut lo: f64, mut hi: f64, f: impl Fn(f64) -> f64) -> f64 {
     // (2/3)^90 < ε.
     for _ in 0..90 {

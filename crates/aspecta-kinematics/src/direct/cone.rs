@@ -1,12 +1,14 @@
 //! The orientations of a body on three cones, by one angle.
 //!
-//! w₁ · R v₁ = cos δ leaves R = E R_x(a) M R_x(b) Fᵀ, with frames E, F whose first vectors are w₁, v₁ and M the turn by δ in their first two
-//! axes. Legs 2 and 3 then read α cos b + β sin b = γ with α, β, γ affine in cos a, sin a, so that
+//! w₁ · R v₁ = cos δ leaves R = E R_x(a) M R_x(b) Fᵀ, with frames E, F whose first vectors are w₁, v₁ and M
+//! the turn by δ in their first two axes. Legs 2 and 3 then read α cos b + β sin b = γ with α, β, γ affine in
+//! cos a, sin a, so that
 //!
 //! > F(a) = (γ₂β₃ − γ₃β₂)² + (α₂γ₃ − α₃γ₂)² − (α₂β₃ − α₃β₂)² = 0,
 //!
-//! a trigonometric polynomial of degree 4. Where Δ = α₂β₃ − α₃β₂ ≠ 0 the two lines have one solution (cos b, sin b), of norm one if F = 0; where
-//! Δ = 0, F is a sum of squares and its zeros are double. So a simple zero of F is exactly one orientation, and where all are simple these are all.
+//! a trigonometric polynomial of degree 4. Where Δ = α₂β₃ − α₃β₂ ≠ 0 the two lines have one solution (cos b,
+//! sin b), of norm one if F = 0; where Δ = 0, F is a sum of squares and its zeros are double. So a simple
+//! zero of F is exactly one orientation, and where all are simple these are all.
 
 use super::bernstein::{Arc, Piece, isolate};
 use super::projective::Point;
@@ -16,8 +18,8 @@ use aspecta_robot::num::{Ball, Interval, Scalar, dot};
 use aspecta_robot::{Frame, crank_frame, rail_frame};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 
-/// Bernstein coefficients of degree 2, on half a circle, of what is affine in cos a and sin a: times (1 − τ)² + τ², with
-/// cos a = 2(1 − τ)τ / …, sin a = (τ² − (1 − τ)²) / ….
+/// Bernstein coefficients of degree 2, on half a circle, of what is affine in cos a and sin a: times (1 −
+/// τ)² + τ², with cos a = 2(1 − τ)τ / …, sin a = (τ² − (1 − τ)²) / ….
 type Quadratic = [Ball; 3];
 
 /// The lines of legs 2 and 3 over half a circle of a: (α, β, γ).
@@ -115,8 +117,8 @@ fn eliminant(lines: &Lines) -> [Ball; 9] {
     std::array::from_fn(|k| cos[k] + sin[k] - norm[k])
 }
 
-/// All orientations, approximately, as quaternions: as many as there are, proved. `None` if some meet, or cannot be told from it, on the cone of
-/// every leg.
+/// Returns all orientations, approximately, as quaternions: as many as there are, proved. `None` if some
+/// meet, or cannot be told from it, on the cone of every leg.
 pub(super) fn sweep(cones: &[Cone; 3]) -> Option<ArrayVec<Point<4>, 16>> {
     (0..3).find_map(|first| {
         let order = [first, (first + 1) % 3, (first + 2) % 3].map(|k| cones[k]);

@@ -1,4 +1,4 @@
-//! What is left of a plane body's leg equations when its position is eliminated.
+//! The leg equations of a plane body with its position eliminated.
 
 use super::triangle::{Complex, Triangle, conjugate_times, minus, norm2, number, plus, scaled, times};
 use aspecta_robot::num::{Interval, Scalar};

@@ -13,20 +13,22 @@ use aspecta_robot::num::{Interval, Scalar};
 ///
 /// with ε, γ the vector parts of e, g (Husty 1996).
 ///
-/// It is linear in 1, ‖p‖², p, Rᵀp and R: the poses are the points of a linear section of codimension six of a variety of dimension six
-/// and degree 40 in P¹⁶ (Gallet, Nawratil & Schicho 2015; the number 40 is Ronga & Vust's and Mourrain's, 1992 to 1996). So there are
-/// at most 40 isolated ones, complex ones included (Fulton, 12.3.1), and when 40 are proved there is nothing else.
+/// It is linear in 1, ‖p‖², p, Rᵀp and R: the poses are the points of a linear section of codimension six of
+/// a variety of dimension six and degree 40 in P¹⁶ (Gallet, Nawratil & Schicho 2015; the number 40 is Ronga &
+/// Vust's and Mourrain's, 1992 to 1996). So there are at most 40 isolated ones, complex ones included
+/// (Fulton, 12.3.1), and when 40 are proved there is nothing else.
 const MOST: usize = 40;
 
 /// With the legs joined in three pairs, by the joints of the platform or by those of the base, at most 16.
 ///
-/// Each joint C of a pair is on two spheres, a conic of P³ on which ‖C‖² is linear; so the three distances between joints are
-/// bilinear, and three conics times three divisors of bidegree (1, 1) in (P³)³ have 2³ · 2 isolated points at most (Fulton, 12.3.1). Three joints that are
-/// not in line make one pose. For pairs at the base, swap base and platform.
+/// Each joint C of a pair is on two spheres, a conic of P³ on which ‖C‖² is linear; so the three distances
+/// between joints are bilinear, and three conics times three divisors of bidegree (1, 1) in (P³)³ have 2³ · 2
+/// isolated points at most (Fulton, 12.3.1). Three joints that are not in line make one pose. For pairs at
+/// the base, swap base and platform.
 const MOST_IN_PAIRS: usize = 16;
 
-/// An upper bound of the number of isolated poses. Joints whose coordinates are written alike in a robot file are taken for one; ends of cranks and
-/// sliders are not, for each is known within the rounding of its own q.
+/// An upper bound of the number of isolated poses. Joints whose coordinates are written alike in a robot file
+/// are taken for one; ends of cranks and sliders are not, for each is known within the rounding of its own q.
 pub(super) fn most(legs: &[Locked]) -> usize {
     let paired = |joint: fn(&Locked) -> &[Interval; 3]| {
         let written = |x: &Interval| x.width() <= Interval::decimal(x.mid()).width();
@@ -155,7 +157,8 @@ mod tests {
         (0..6).map(leg).collect()
     }
 
-    /// A path that is left out, or followed twice, is a solution that is not counted: with Dietmaier's 40 real ones no conjugate makes up for it.
+    /// A path that is left out, or followed twice, is a solution that is not counted: with Dietmaier's 40
+    /// real ones no conjugate makes up for it.
     #[test]
     fn with_a_solution_less_nothing_is_complete() {
         let robot = aspecta_robot::catalogue::find("gough-stewart").unwrap();

@@ -25,8 +25,8 @@ pub(super) struct Locked {
 pub(super) type LockedLegs = ArrayVec<Locked, 6>;
 
 impl Locked {
-    /// Locks a point-to-point leg at the joint coordinate `q`, within the [`slack`] of q: a configuration whose
-    /// q was rounded must not be lost. Spherical legs have no such form; they stay as they are.
+    /// Locks a point-to-point leg at the joint coordinate `q`, within the [`slack`] of q: a configuration
+    /// whose q was rounded must not be lost. Spherical legs have no such form; they stay as they are.
     pub fn new<const D: usize>(leg: &Leg, q: f64) -> Self {
         let slack = slack(leg, q);
         let q = Interval::new(q - slack, q + slack);
@@ -47,8 +47,8 @@ impl Locked {
     }
 }
 
-/// What rounding leaves open of a `q` that the inverse model made of a pose: a few units in the last place of the
-/// coordinates that went into it, seen as an angle of the crank where q is one.
+/// Returns the rounding error of a `q` that the inverse model made of a pose: a few units in the last place
+/// of the coordinates that went into it, seen as an angle of the crank where q is one.
 fn slack(leg: &Leg, q: f64) -> f64 {
     let ends = largest(&leg.anchor) + largest(&leg.attachment);
     2.0 * f64::EPSILON * leg.actuator.rounded_size(ends, q)
@@ -80,7 +80,7 @@ pub(super) fn linearised<const D: usize, const N: usize>(
     (SVector::from_fn(|j, _| f[j].value), SMatrix::from_fn(|j, k| f[j].gradient[k]))
 }
 
-/// What makes a pose coordinate a number of order one: the longest leg, or a radian.
+/// Returns the units in which pose coordinates are of order one: the longest leg, or a radian.
 pub(super) fn units<const N: usize>(platform: Platform, legs: &[Locked]) -> [f64; N] {
     let longest = legs.iter().map(|l| l.q.hi).fold(0.0, f64::max);
     std::array::from_fn(|k| if platform.coordinates()[k].angle { 1.0 } else { longest })
@@ -116,8 +116,8 @@ pub(super) fn polish<const D: usize, const N: usize>(
     best
 }
 
-/// Whether the leg equations hold at `x` as far as rounding lets them: |f| is within a few dozen units in the last
-/// place of the square of the coordinates that enter it.
+/// Whether the leg equations hold at `x` as far as rounding lets them: |f| is within a few dozen units in the
+/// last place of the square of the coordinates that enter it.
 pub(super) fn rounds_to_zero<const D: usize, const N: usize>(
     platform: Platform,
     legs: &[Locked],

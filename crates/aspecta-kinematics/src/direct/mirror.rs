@@ -1,4 +1,5 @@
-//! Platforms that do not turn: both direct solutions are mirror images in the line (the plane) of the centres.
+//! Platforms that do not turn: both direct solutions are mirror images in the line (the plane) of the
+//! centres.
 
 use super::locked::{Locked, linearised, polish};
 use super::{Roots, SelfMotion};
@@ -17,7 +18,7 @@ pub(super) struct MirrorPair<const D: usize> {
     pub square: Interval,
 }
 
-/// What D circles or spheres have in common.
+/// The common points of D circles or spheres.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Pair<const D: usize> {
     /// Nothing, proved.
@@ -32,8 +33,8 @@ pub(super) enum Pair<const D: usize> {
 /// The direct solutions of `platform` (plane point or translating body) with `legs` locked, where
 /// `intersect` intersects their circles or spheres.
 ///
-/// There are at most two. If intervals cannot tell the sign of `square`, the pair is within rounding of a parallel
-/// singularity; then those candidates are returned whose leg equations hold to rounding.
+/// There are at most two. If intervals cannot tell the sign of `square`, the pair is within rounding of a
+/// parallel singularity; then those candidates are returned whose leg equations hold to rounding.
 pub(super) fn solve<const D: usize>(
     platform: Platform,
     legs: &[Locked],
@@ -63,8 +64,9 @@ pub(super) fn solve<const D: usize>(
     Ok(roots)
 }
 
-/// The point at the same height over the line (the plane) of the centres that fulfils the leg equations best: least
-/// squares by Gauss and Newton. Where the centres are almost in line, the formula of the foot is not good enough.
+/// The point at the same height over the line (the plane) of the centres that fulfils the leg equations best:
+/// least squares by Gauss and Newton. Where the centres are almost in line, the formula of the foot is not
+/// good enough.
 fn settled<const D: usize>(
     platform: Platform,
     legs: &[Locked],

@@ -1,7 +1,7 @@
 //! The direct geometric model: all real poses of a joint vector, g⁻¹(q) of (6) over all working modes.
 //!
-//! With its actuators locked every point-to-point leg is a strut of fixed length (`locked`), so a robot poses one of
-//! a few classical problems:
+//! With its actuators locked every point-to-point leg is a strut of fixed length (`locked`), so a robot poses
+//! one of a few classical problems:
 //!
 //! | platform | problem | poses |
 //! |---|---|---|
@@ -11,8 +11,8 @@
 //! | turning body | one polynomial of degree 8 (`cone`), or three quadrics of P³ in the quaternion (`turning_body`) | 8 |
 //! | free body | Gough-Stewart: seven quadrics of P⁷ in Study parameters (`free_body`) | 40 |
 //!
-//! Nothing is lost near double solutions: intervals decide how many poses there are, and where they cannot, every
-//! pose is returned whose leg equations hold to rounding.
+//! Nothing is lost near double solutions: intervals decide how many poses there are, and where they cannot,
+//! every pose is returned whose leg equations hold to rounding.
 
 mod bernstein;
 mod certify;
@@ -67,8 +67,8 @@ impl<const N: usize> Roots<N> {
         self.poses.try_push(pose).map_err(|_| SelfMotion)
     }
 
-    /// Adds a doubtful pose if its leg equations hold to rounding and it is not there already: nearer to another
-    /// than poses that meet can be told apart, √ε of the longest leg or of a radian.
+    /// Adds a doubtful pose if its leg equations hold to rounding and it is not there already: nearer to
+    /// another than poses that meet can be told apart, √ε of the longest leg or of a radian.
     fn push_if_solution<const D: usize>(
         &mut self,
         platform: Platform,
@@ -125,7 +125,7 @@ impl Poses {
         Self { list, dof: N, at_most: roots.at_most }
     }
 
-    /// How many there are.
+    /// Returns how many there are.
     pub fn len(&self) -> usize {
         self.list.len()
     }
@@ -146,9 +146,9 @@ impl Poses {
 pub struct DirectSolutions {
     /// The solutions, sorted by angles, then by lengths.
     pub solutions: Vec<Solution>,
-    /// Whether it is proved that these are all real solutions: intervals bound their number from above, and as
-    /// many certified solutions with disjoint boxes are in the list. False near parallel singularities that
-    /// double precision cannot tell from a double solution.
+    /// Whether it is proved that these are all real solutions: intervals bound their number from above, and
+    /// as many certified solutions with disjoint boxes are in the list. False near parallel singularities
+    /// that double precision cannot tell from a double solution.
     pub complete: bool,
 }
 

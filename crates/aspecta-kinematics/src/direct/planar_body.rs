@@ -43,8 +43,8 @@ impl Chart {
     }
 }
 
-/// Two half circles on whose ends the sign of F is known, so that no root sits on a cut; `None` if F is within
-/// rounding of zero wherever the circle is cut.
+/// Two half circles on whose ends the sign of F is known, so that no root sits on a cut; `None` if F is
+/// within rounding of zero wherever the circle is cut.
 fn charts(eliminant: &TrigonometricCubic<Ball>) -> Option<[Chart; 2]> {
     // With the real axis, directions of seven pairs of ends, of which six roots spoil at most six.
     const TURNS: [Complex<f64>; 6] = [
@@ -61,7 +61,7 @@ fn charts(eliminant: &TrigonometricCubic<Ball>) -> Option<[Chart; 2]> {
         .or_else(|| TURNS.into_iter().find_map(|zeta| Chart::pair(zeta, &turned(zeta))))
 }
 
-/// All poses of a plane body whose `legs` are locked.
+/// Returns all poses of a plane body whose `legs` are locked.
 pub(super) fn solve(legs: &[Locked]) -> Result<Roots<3>, SelfMotion> {
     let triangle = Triangle::new(legs);
     let numeric = triangle.over();
@@ -91,8 +91,8 @@ pub(super) fn solve(legs: &[Locked]) -> Result<Roots<3>, SelfMotion> {
     Ok(roots)
 }
 
-/// The one pose with an orientation on `arc`: from the root of F, polished on the leg equations. `None` if Newton's
-/// method leaves the arc, for then it has found another pose.
+/// The one pose with an orientation on `arc`: from the root of F, polished on the leg equations. `None` if
+/// Newton's method leaves the arc, for then it has found another pose.
 fn pose(triangle: &Triangle<f64>, chart: &Chart, arc: &Arc<7>) -> Option<[f64; 3]> {
     let (from, to) = (chart.direction(arc.lo), chart.direction(arc.hi));
     let follows = |a, b| conjugate_times(a, b)[1] >= -1e-14;

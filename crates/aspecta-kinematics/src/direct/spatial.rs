@@ -9,7 +9,8 @@ use crate::placement::{Placement, roll_pitch_yaw};
 use aspecta_robot::Platform;
 use nalgebra::{DMatrix, DVector, Dyn, SVD};
 
-/// The orientations of a turning body: by the sweep of one leg's cone, or, where that cannot tell how many there are, by all complex ones.
+/// The orientations of a turning body: by the sweep of one leg's cone, or, where that cannot tell how many
+/// there are, by all complex ones.
 pub(super) fn turning(legs: &[Locked], prove: bool) -> Result<Roots<3>, SelfMotion> {
     let Some(cones) = turning_body::cones(legs) else { return Err(SelfMotion) };
     let problem = turning_body::problem(&cones);
@@ -38,8 +39,8 @@ pub(super) fn free(legs: &[Locked], prove: bool) -> Result<Roots<6>, SelfMotion>
 
 /// The real ones among the common points of `problem`, which has at most `most` isolated ones.
 ///
-/// Where it is not proved that these are all, the other paths may have ended at poses that meet: those that fulfil the leg equations
-/// to rounding are added.
+/// Where it is not proved that these are all, the other paths may have ended at poses that meet: those that
+/// fulfil the leg equations to rounding are added.
 fn found<const V: usize, const F: usize, const N: usize>(
     platform: Platform,
     legs: &[Locked],
@@ -79,7 +80,8 @@ fn found<const V: usize, const F: usize, const N: usize>(
     Ok(roots)
 }
 
-/// A pose near `start` that fulfils the leg equations, if there is one; of two that meet there, the one on the given side (±1).
+/// A pose near `start` that fulfils the leg equations, if there is one; of two that meet there, the one on
+/// the given side (±1).
 fn settled<const N: usize>(platform: Platform, legs: &[Locked], start: [f64; N], side: f64) -> [f64; N] {
     let mut x = on_fold::<N>(platform, legs, start, side).unwrap_or(start);
     if !rounds_to_zero::<3, N>(platform, legs, &x) {
@@ -92,8 +94,9 @@ fn settled<const N: usize>(platform: Platform, legs: &[Locked], start: [f64; N],
     x
 }
 
-/// Along the direction v that the equations resist least, l · f = a + b s + c s²/2 + …, l being the combination that sees v most: it is solved for
-/// s, at whose double root Newton's method would be lost, while the other directions take its steps. `None` where numbers overflow.
+/// Along the direction v that the equations resist least, l · f = a + b s + c s²/2 + …, l being the
+/// combination that sees v most: it is solved for s, at whose double root Newton's method would be lost,
+/// while the other directions take its steps. `None` where numbers overflow.
 fn on_fold<const N: usize>(
     platform: Platform,
     legs: &[Locked],
@@ -176,8 +179,9 @@ fn is_rotation<const V: usize>(x: &Point<V>) -> bool {
     (0..4).any(|k| x.re[k].abs() > FAR)
 }
 
-/// Whether the platform can move away from a pose with its actuators locked. *Numerical*: a pose is looked for a twentieth of a radian, or of the
-/// longest leg, away in the direction that the leg equations resist least, to rounding.
+/// Whether the platform can move away from a pose with its actuators locked. *Numerical*: a pose is looked
+/// for a twentieth of a radian, or of the longest leg, away in the direction that the leg equations resist
+/// least, to rounding.
 fn moves<const N: usize>(platform: Platform, legs: &[Locked], pose: [f64; N]) -> bool {
     const STEP: f64 = 0.05;
     let unit = units::<N>(platform, legs);

@@ -85,7 +85,7 @@ impl Triangle<Interval> {
         Self { base: base(0), attachment: attachment(0), e, d, k, r2 }
     }
 
-    /// The same over another scalar; `f64` takes the middle.
+    /// Converts the triangle to another scalar; `f64` takes the middle.
     pub fn over<T: Scalar>(&self) -> Triangle<T> {
         let vector = |a: Complex<Interval>| a.map(T::constant);
         Triangle {
@@ -112,8 +112,8 @@ impl<T: Scalar> Triangle<T> {
         minus(plus(self.base, u), times(self.attachment, z))
     }
 
-    /// The point of the line u · w = g on the circle ‖u‖² = R₁², on the left of w (`side` = 1) or on the right
-    /// (−1); the nearest point of the line if it misses the circle.
+    /// The point of the line u · w = g on the circle ‖u‖² = R₁², on the left of w (`side` = 1) or on the
+    /// right (−1); the nearest point of the line if it misses the circle.
     pub fn on_circle(&self, w: Complex<T>, g: T, side: f64) -> Complex<T> {
         let along = g / norm2(w);
         let across = (self.r2[0] / norm2(w) - along.square()).sqrt() * number(side);
@@ -135,8 +135,8 @@ impl Triangle<f64> {
         (0..3).map(|i| (norm2(s[i]) - self.r2[i]).abs()).sum()
     }
 
-    /// Newton's method from (u, z) on sᵢ² = Rᵢ², with s₁ = u and sᵢ = u + wᵢ: the best iterate. It stops after the first
-    /// step so small that the next, quadratically smaller, is lost in rounding.
+    /// Newton's method from (u, z) on sᵢ² = Rᵢ², with s₁ = u and sᵢ = u + wᵢ: the best iterate. It stops
+    /// after the first step so small that the next, quadratically smaller, is lost in rounding.
     pub fn polish(&self, mut u: Complex<f64>, mut z: Complex<f64>) -> (Complex<f64>, Complex<f64>) {
         const MOST_STEPS: usize = 12;
         const SMALL_STEP: f64 = 1e-10;
@@ -170,8 +170,8 @@ impl Triangle<f64> {
         best
     }
 
-    /// u at a root of F: −i G / Δ, or where Δ is all but zero the point of the better of the lines u · wᵢ = gᵢ
-    /// that lies on the circle and on the same side.
+    /// u at a root of F: −i G / Δ, or where Δ is all but zero the point of the better of the lines u · wᵢ =
+    /// gᵢ that lies on the circle and on the same side.
     pub fn reach(&self, z: Complex<f64>) -> Complex<f64> {
         let Lines { w, g } = self.lines(z);
         let area = conjugate_times(w[0], w[1])[1];

@@ -9,8 +9,8 @@ use std::sync::LazyLock;
 
 /// w(q) · R v = cos(distal), times ‖e‖²: a quadratic form in the quaternion e.
 ///
-/// Three quadrics of P³ have at most 2³ = 8 isolated common points (Bézout; Fulton, *Intersection Theory*, 12.3.1), and
-/// ±e is one point of P³ and one orientation. So eight different proved points are all.
+/// Three quadrics of P³ have at most 2³ = 8 isolated common points (Bézout; Fulton, *Intersection Theory*,
+/// 12.3.1), and ±e is one point of P³ and one orientation. So eight different proved points are all.
 pub(super) const MOST: usize = 8;
 
 /// w(q) · R v = cos(distal) of a locked leg.
@@ -24,7 +24,8 @@ pub(super) struct Cone {
     pub cosine: Interval,
 }
 
-/// The three cones of locked legs; `None` for legs of other kinds, which `Robot::new` lets no turning body have.
+/// The three cones of locked legs; `None` for legs of other kinds, which `Robot::new` lets no turning body
+/// have.
 pub(super) fn cones(legs: &[Locked]) -> Option<[Cone; 3]> {
     let cone = |locked: &Locked| {
         let (axis, cosine) = match locked.leg.actuator.locked(locked.q) {

@@ -35,7 +35,7 @@ use nalgebra::SMatrix;
 #[derive(Clone, Debug)]
 pub struct Follower {
     robot: Robot,
-    /// What makes a displacement a number of order one.
+    /// The units in which displacements are of order one.
     unit: Padded,
     state: State,
 }
@@ -128,7 +128,7 @@ impl Follower {
         for_platform!(self.robot.platform, advance(self, q))
     }
 
-    /// What proofs look at, and the last good state.
+    /// Returns the model that proofs look at, and the last good state.
     pub(super) fn model_and_state<const D: usize, const N: usize>(&self) -> (Model<'_, D, N>, Located<N>) {
         (Model::new(&self.robot, &self.unit), self.state.located())
     }

@@ -98,8 +98,8 @@ fn check_numbers(robot: &Robot, values: &[f64]) -> Result<(), BadInput> {
     }
 }
 
-/// Walks the parameter t of a step from 0 to 1 in stretches: `prove(from, to)` says whether a stretch holds. Halves what fails, doubles
-/// what succeeds. Returns the t reached; 1 is all of it.
+/// Walks the parameter t of a step from 0 to 1 in stretches: `prove(from, to)` says whether a stretch holds.
+/// Halves what fails, doubles what succeeds. Returns the t reached; 1 is all of it.
 fn in_stretches(mut prove: impl FnMut(f64) -> bool) -> (f64, u32) {
     let (mut reached, mut length) = (0.0, 1.0);
     for tried in 1..=MOST_STRETCHES {

@@ -27,7 +27,8 @@ impl<const D: usize, const N: usize> Model<'_, D, N> {
     ///
     /// The singularity is named if it seems to lie within the step, or one more like it.
     ///
-    /// At a parallel singularity two solutions meet like the roots ±√(t* − t): there det A² goes to zero linearly.
+    /// At a parallel singularity two solutions meet like the roots ±√(t* − t): there det A² goes to zero
+    /// linearly.
     pub fn refusal(&self, last: &Located<N>, start: &[f64; N], goal: &[f64; N], proved: f64) -> Refusal {
         let distance = self.parallel_measure(last);
         let (det, rate) = self.det_and_rate(last, start, goal);

@@ -12,7 +12,7 @@ pub(super) trait OnTheWay: Scalar {
     /// (1 − t) `back` + `noise`.
     fn on_the_way(back: Ball, noise: Ball) -> Self;
 
-    /// All values.
+    /// Encloses all values.
     fn range(self) -> Ball;
 
     /// The integral over [t, 1], for every t.
@@ -22,7 +22,7 @@ pub(super) trait OnTheWay: Scalar {
     fn small_sin_cos(self) -> (Self, Self);
 }
 
-/// What does not know where on the way it is.
+/// A ball, which does not depend on the place on the way.
 impl OnTheWay for Ball {
     #[inline(always)]
     fn fixed(x: Ball) -> Self {
@@ -46,7 +46,7 @@ impl OnTheWay for Ball {
     }
 }
 
-/// What does: linear in t, with a remainder.
+/// A function of the place on the way: linear in t, with a remainder.
 impl OnTheWay for Slope<Ball, 1> {
     fn fixed(x: Ball) -> Self {
         Self { range: x, centre: x, slope: [ZERO] }
@@ -58,8 +58,8 @@ impl OnTheWay for Slope<Ball, 1> {
     fn range(self) -> Ball {
         self.tightened().range
     }
-    /// With τ = 1 − 2t' the function is g + m τ + r(τ) τ, |r(τ)| ≤ rad. Over [t, 1] g gives (1 − t) g, m τ gives m t (1 − t), at most
-    /// a quarter of m, and the rest at most rad ∫|τ| dt' = rad / 2.
+    /// With τ = 1 − 2t' the function is g + m τ + r(τ) τ, |r(τ)| ≤ rad. Over [t, 1] g gives (1 − t) g, m τ
+    /// gives m t (1 − t), at most a quarter of m, and the rest at most rad ∫|τ| dt' = rad / 2.
     fn so_far(self) -> Ball {
         let m = self.slope[0];
         let bound = Ball::about_zero(0.25 * m.mid.abs()) + Ball::about_zero(0.5 * m.rad);

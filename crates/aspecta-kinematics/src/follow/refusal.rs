@@ -51,7 +51,7 @@ pub enum Refusal {
     Parallel {
         /// Up to where the step is proved, t.
         proved: f64,
-        /// Where det A² extrapolates to zero, t.
+        /// The t at which det A² extrapolates to zero.
         singular_at: f64,
         /// [`State::parallel_measure`](crate::State::parallel_measure) at `proved`.
         distance: f64,
@@ -66,7 +66,7 @@ pub enum Refusal {
         leg: usize,
         /// Up to where the step is proved, t.
         proved: f64,
-        /// Where H_j extrapolates to zero, t.
+        /// The t at which H_j extrapolates to zero.
         singular_at: f64,
         /// [`State::serial_measures`](crate::State::serial_measures) of the leg at `proved`.
         distance: f64,
@@ -79,7 +79,7 @@ pub enum Refusal {
     TooLong {
         /// Up to where the step is proved, t.
         proved: f64,
-        /// As in [`Refusal::Parallel`] or [`Refusal::Serial`].
+        /// The distance, as in [`Refusal::Parallel`] or [`Refusal::Serial`].
         distance: f64,
     },
 }

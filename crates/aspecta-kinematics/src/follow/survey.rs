@@ -1,4 +1,4 @@
-//! What a robot meets on a stretch that is proved: enclosures over the tube.
+//! Enclosures of reach, limits and det A over the tube of a stretch that is proved.
 
 use super::direct::{Follower, check_joints};
 use super::on_the_way::OnTheWay;
@@ -12,8 +12,9 @@ use aspecta_robot::Platform;
 use aspecta_robot::legs::Closure;
 use aspecta_robot::num::{Ball, Interval, Scalar, Slope, dot, padded};
 
-/// Enclosures of what the robot meets on one certified stretch of joint vectors: they hold the values at every configuration of the solution
-/// curve. Whatever `det_a` may hold, det A does not vanish: that is what the stretch is certified for.
+/// Enclosures of what the robot meets on one certified stretch of joint vectors: they hold the values at
+/// every configuration of the solution curve. Whatever `det_a` may hold, det A does not vanish: that is what
+/// the stretch is certified for.
 #[derive(Clone, Debug)]
 pub struct Survey {
     /// det A.
@@ -31,27 +32,28 @@ pub struct Survey {
 type Over = Slope<Ball, 1>;
 
 impl Follower {
-    /// Goes on to the joint vector `q` in one piece, as [`Follower::step`] does in several, and encloses what is met on the way. What is proved
-    /// holds for every path of joint vectors that stays within `sag` (per joint) of the straight segment, at the same share of the way.
+    /// Goes on to the joint vector `q` in one piece, as [`Follower::step`] does in several, and encloses what
+    /// is met on the way. What is proved holds for every path of joint vectors that stays within `deviation`
+    /// (per joint) of the straight segment, at the same share of the way.
     ///
     /// # Errors
     /// [`Refusal`]; the state is then as before, and a shorter piece may do.
-    pub fn survey(&mut self, q: &[f64], sag: &[f64]) -> Result<Survey, Refusal> {
+    pub fn survey(&mut self, q: &[f64], deviation: &[f64]) -> Result<Survey, Refusal> {
         check_joints(self.robot(), q)?;
-        for_platform!(self.robot().platform, advance(self, q, sag))
+        for_platform!(self.robot().platform, advance(self, q, deviation))
     }
 }
 
 fn advance<const D: usize, const N: usize>(
     follower: &mut Follower,
     q: &[f64],
-    sag: &[f64],
+    deviation: &[f64],
 ) -> Result<Survey, Refusal> {
     let (model, start) = follower.model_and_state::<D, N>();
     let goal = unpadded::<N>(&padded(q));
-    let sag = unpadded::<N>(&padded(sag));
+    let deviation = unpadded::<N>(&padded(deviation));
     let slack: [f64; N] =
-        std::array::from_fn(|j| sag[j] + 4.0 * f64::EPSILON * start.q[j].abs().max(goal[j].abs()));
+        std::array::from_fn(|j| deviation[j] + 4.0 * f64::EPSILON * start.q[j].abs().max(goal[j].abs()));
     let proved = model.prove_and_look(&start, &goal, &slack, |stretch| model.survey(stretch));
     let Some((proof, mut survey)) = proved else {
         return Err(model.refusal(&start, &start.q, &goal, 0.0));

@@ -13,7 +13,7 @@ pub(super) type Turn<T> = (T, T);
 
 const ZERO: Ball = Ball::point(0.0);
 
-/// What a robot looks like to the proofs: its equations, and what makes a displacement a number of order one.
+/// The robot as proofs see it: its equations, and the units in which displacements are of order one.
 #[derive(Clone, Copy)]
 pub(super) struct Model<'a, const D: usize, const N: usize> {
     pub robot: &'a Robot,
@@ -31,7 +31,7 @@ pub(super) struct Located<const N: usize> {
     pub inverse: SMatrix<f64, N, N>,
 }
 
-/// What a stretch is judged by, as the theorem of [`super`] names it.
+/// The quantities by which a stretch is judged, as the theorem of [`super`] names them.
 pub(super) struct Stretch<'a, const D: usize, const N: usize> {
     /// The placement of X₁, about which z is counted.
     at: Placement<Ball, D>,
@@ -41,7 +41,7 @@ pub(super) struct Stretch<'a, const D: usize, const N: usize> {
     /// f(X₁, q₁), and Y times that.
     f: [Ball; N],
     miss: [Ball; N],
-    /// Where the solution at the start lies.
+    /// An enclosure of the solution at the start.
     known: [Ball; N],
     s: [Ball; N],
     /// q₀ − q₁.
@@ -106,7 +106,7 @@ pub(super) struct LegOver<T, const D: usize> {
     pub slope: T,
 }
 
-/// What was proved of a stretch.
+/// The result of a proof about a stretch.
 pub(super) struct Proof<const N: usize> {
     /// Its end.
     pub end: Located<N>,
@@ -119,15 +119,16 @@ impl<'a, const D: usize, const N: usize> Model<'a, D, N> {
         Self { robot, unit: unpadded(unit) }
     }
 
-    /// Proves the stretch from `start` to the joint vector `q`, for all joint vectors within `slack` of the straight segment.
+    /// Proves the stretch from `start` to the joint vector `q`, for all joint vectors within `slack` of the
+    /// straight segment.
     pub fn prove(&self, start: &Located<N>, q: &[f64; N], slack: &[f64; N]) -> Option<Proof<N>> {
         let turns = self.turns(q);
         let root = self.newton(&start.pose, &start.inverse, q, &plain(&turns))?;
         self.certify::<Ball>(&Stretch::moving(self, start, &root, q, &turns, slack), &root).ok()
     }
 
-    /// The same at several times the cost, for longer stretches: enclosures know where on the way they are, and the
-    /// solution halfway gives Y and the width of the tube.
+    /// Proves longer stretches than [`Self::prove`], at several times the cost: enclosures know where on the
+    /// way they are, and the solution halfway gives Y and the width of the tube.
     pub fn prove_carefully(&self, start: &Located<N>, q: &[f64; N], slack: &[f64; N]) -> Option<Proof<N>> {
         self.prove_and_look(start, q, slack, |_| ()).map(|(proof, ())| proof)
     }
@@ -146,8 +147,8 @@ impl<'a, const D: usize, const N: usize> Model<'a, D, N> {
         let q = std::array::from_fn(|j| 0.5 * (start.q[j] + q[j]));
         let Root { pose, inverse } = self.newton(&start.pose, &start.inverse, &q, &plain(&self.turns(&q)))?;
         let halfway = self.displacement(&Located { pose, q, radius: 0.0, inverse }, &root.pose, &stretch.at);
-        let sag: [Ball; N] = each!(|k| Ball::point(halfway[k].mid - 0.5 * stretch.s[k].mid));
-        stretch.room += 3.0 * self.size(&sag) - 0.25 * self.size(&stretch.s);
+        let deviation: [Ball; N] = each!(|k| Ball::point(halfway[k].mid - 0.5 * stretch.s[k].mid));
+        stretch.room += 3.0 * self.size(&deviation) - 0.25 * self.size(&stretch.s);
         stretch.y = rows(&inverse);
         stretch.miss = each!(|i| dot(&stretch.y[i], &stretch.f));
         let proof = self.certify::<Slope<Ball, 1>>(&stretch, &root).or_else(|needed| {
@@ -180,7 +181,8 @@ impl<'a, const D: usize, const N: usize> Model<'a, D, N> {
 
     /// The theorem of [`super`]. `Err` holds a radius ρ that might do; infinite if κ ≥ 1.
     ///
-    /// What is compared may be infinite or NaN: each condition is one that must be true.
+    /// Certifies a stretch. Numbers that are compared may be infinite or NaN: each condition is one that must
+    /// be true.
     fn certify<T: OnTheWay>(&self, stretch: &Stretch<'_, D, N>, root: &Root<N>) -> Result<Proof<N>, f64> {
         let Stretch { s, back, off, room, .. } = stretch;
         let from_centre: [Ball; N] = each!(|k| stretch.known[k] - s[k]);
@@ -202,9 +204,9 @@ impl<'a, const D: usize, const N: usize> Model<'a, D, N> {
             }
             sum
         });
-        let jolt: [Ball; N] = each!(|j| b[j].range() * off[j]);
+        let disturbance: [Ball; N] = each!(|j| b[j].range() * off[j]);
         let missed: [Ball; N] =
-            each!(|i| stretch.miss[i] + dot(&y[i], &drift).so_far() + dot(&stretch.y[i], &jolt));
+            each!(|i| stretch.miss[i] + dot(&y[i], &drift).so_far() + dot(&stretch.y[i], &disturbance));
         let needed = if left > 0.0 { above(self.size(&missed) / left) } else { f64::INFINITY };
         let holds_tube = needed <= *room && left > 0.0;
         if !holds_tube {
@@ -290,7 +292,7 @@ impl<'a, const D: usize, const N: usize> Model<'a, D, N> {
         most
     }
 
-    /// Where the solution at the start lies, in the coordinates z about `pose`, whose placement is `at`.
+    /// Encloses the solution at the start, in the coordinates z about `pose`, whose placement is `at`.
     fn displacement(&self, start: &Located<N>, pose: &[f64; N], at: &Placement<Ball, D>) -> [Ball; N] {
         let platform = self.robot.platform;
         let doubt: [Ball; N] = each!(|k| Ball::point(self.unit[k]) * Ball::about_zero(start.radius));
@@ -342,7 +344,7 @@ fn turn_of(angle: f64) -> Turn<Ball> {
     (sin.into(), cos.into())
 }
 
-/// The same in doubles.
+/// Returns the turns in doubles.
 pub(super) fn plain<const N: usize>(turns: &[Turn<Ball>; N]) -> [Turn<f64>; N] {
     turns.map(|(sin, cos)| (sin.mid, cos.mid))
 }

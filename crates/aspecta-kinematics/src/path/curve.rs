@@ -68,13 +68,13 @@ fn horner<T: Scalar>(coefficients: &[Interval], t: T) -> T {
     rest.iter().rev().fold(T::constant(*last), |sum, &c| sum * t + T::constant(c))
 }
 
-/// What intervals prove of a demand along a curve.
+/// The result of checking a demand along a curve by intervals.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Along {
     /// It is met for all t: without a crossing, the curve lies in one generalized aspect.
     Inside,
-    /// The crossing leg comes to its serial singularity on [`from`, `to`] for the first time, and all else that is demanded, of both its
-    /// postures, is met from t = 0 up to there.
+    /// The crossing leg comes to its serial singularity on [`from`, `to`] for the first time, and all else
+    /// that is demanded, of both its postures, is met from t = 0 up to there.
     Crossed {
         /// Start of the stretch, t.
         from: f64,
@@ -106,21 +106,23 @@ const SHORTEST: f64 = 1e-12;
 
 /// Decides whether a demand is met all along a curve, in at most `effort` interval evaluations.
 ///
-/// Theorem. The range of a constraint over t ∈ T lies in the intersection of its natural interval extension and
-/// its centred form about the middle of T ([`Slope`]). [0, 1] is bisected until each stretch has all constraints > 0; the
-/// stretches cover [0, 1], so S_{s,σ} holds the whole curve, which is connected: it lies in one aspect.
-/// Robot constants are intervals; the ends of a segment are taken as exact doubles, angles as real numbers.
+/// Theorem. The range of a constraint over t ∈ T lies in the intersection of its natural interval extension
+/// and its centred form about the middle of T ([`Slope`]). [0, 1] is bisected until each stretch has all
+/// constraints > 0; the stretches cover [0, 1], so S_{s,σ} holds the whole curve, which is connected: it lies
+/// in one aspect. Robot constants are intervals; the ends of a segment are taken as exact doubles, angles as
+/// real numbers.
 ///
-/// With a leg j that crosses, H_j is no condition; where H_j ≥ 0 the others are evaluated with h_j = √H_j, of which [`Scalar::sqrt`]
-/// encloses all values. If H_j < 0 is proved at the end of stretches on which the others are > 0, then H_j has a first zero t* there, and
-/// on [0, t*] both postures of leg j have all others > 0: the robot can go to X(t*) in one posture and come back in the other, its
-/// det A ≠ 0 all the while.
+/// With a leg j that crosses, H_j is no condition; where H_j ≥ 0 the others are evaluated with h_j = √H_j, of
+/// which [`Scalar::sqrt`] encloses all values. If H_j < 0 is proved at the end of stretches on which the
+/// others are > 0, then H_j has a first zero t* there, and on [0, t*] both postures of leg j have all
+/// others > 0: the robot can go to X(t*) in one posture and come back in the other, its det A ≠ 0 all the
+/// while.
 pub fn along(robot: &Robot, demand: &Demand, curve: &Curve, effort: usize) -> Along {
     along_in_chart(robot, &Chart::Pose, demand, curve, effort)
 }
 
-/// [`along`] for a curve in the coordinates of a chart. Its leg's own s B_jj > 0 is demanded in place of H_j > 0; margins and crossings
-/// are those of poses.
+/// [`along`] for a curve in the coordinates of a chart. Its leg's own s B_jj > 0 is demanded in place of
+/// H_j > 0; margins and crossings are those of poses.
 fn along_in_chart(robot: &Robot, chart: &Chart, demand: &Demand, curve: &Curve, effort: usize) -> Along {
     for_platform!(robot.platform, along_in(robot, chart, demand, curve, effort))
 }
@@ -189,7 +191,7 @@ enum Stretch {
     Open(Constraint),
 }
 
-/// One stretch of t.
+/// Returns one stretch of t.
 fn stretch<const D: usize, const N: usize>(
     robot: &Robot,
     chart: &Chart,
@@ -228,7 +230,7 @@ impl Along {
         Self::is_inside_of(robot, &Chart::Pose, demand, ends, effort)
     }
 
-    /// The same of a segment that is straight in the coordinates of a chart.
+    /// Whether a segment that is straight in the coordinates of a chart is proved to meet the demand.
     pub fn is_inside_of(
         robot: &Robot,
         chart: &Chart,

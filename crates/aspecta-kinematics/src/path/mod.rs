@@ -1,4 +1,5 @@
-//! Paths: checked against singularities and joint limits, between their samples too, and timed under joint limits.
+//! Paths: checked against singularities and joint limits, between their samples too, and timed under joint
+//! limits.
 
 mod check;
 pub mod curve;
@@ -13,7 +14,8 @@ pub use check::{
     check_path, check_poses,
 };
 
-/// What makes pose coordinates numbers of order one: the characteristic length for translations, else 1.
+/// Returns the units in which pose coordinates are of order one: the characteristic length for translations,
+/// else 1.
 pub fn units(robot: &Robot) -> [f64; 6] {
     let mut units = [1.0; 6];
     let lengths = units.iter_mut().zip(robot.platform.coordinates()).filter(|(_, c)| !c.angle);
@@ -21,7 +23,8 @@ pub fn units(robot: &Robot) -> [f64; 6] {
     units
 }
 
-/// Turns the angles of `q` by full turns to be next to those of `last`; the furthest that one of them then is away, in rad.
+/// Turns the angles of `q` by full turns to be next to those of `last`; the furthest that one of them then is
+/// away, in rad.
 pub fn go_on_from(robot: &Robot, last: &[f64], q: &mut [f64]) -> f64 {
     let angles = q.iter_mut().zip(last).zip(&robot.legs).filter(|(_, leg)| leg.actuator.is_angle());
     angles.fold(0.0, |furthest, ((q, last), _)| {

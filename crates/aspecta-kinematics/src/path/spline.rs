@@ -3,8 +3,9 @@
 /// Up to six coordinates, of which the first n count.
 pub(super) type Point = [f64; 6];
 
-/// The cubic spline through points at increasing knots. Its ends are *not-a-knot*: the first two pieces are one cubic, and so are the last two, so that
-/// four points give the cubic through them, three the parabola, two the straight line. Error O(h⁴) at knots h apart.
+/// The cubic spline through points at increasing knots. Its ends are *not-a-knot*: the first two pieces are
+/// one cubic, and so are the last two, so that four points give the cubic through them, three the parabola,
+/// two the straight line. Error O(h⁴) at knots h apart.
 #[derive(Clone, Debug)]
 pub(super) struct Spline {
     knots: Vec<f64>,
@@ -47,8 +48,8 @@ impl Spline {
     }
 }
 
-/// The second derivatives at the knots: M of h₋M₋ + 2(h₋ + h)M + hM₊ = 6(slope − slope₋), the third derivative being continuous at the first and
-/// the last inner knot.
+/// The second derivatives at the knots: M of h₋M₋ + 2(h₋ + h)M + hM₊ = 6(slope − slope₋), the third
+/// derivative being continuous at the first and the last inner knot.
 fn bends(knots: &[f64], points: &[Point]) -> Vec<Point> {
     let n = knots.len();
     let mut bends = vec![[0.0; 6]; n];

@@ -1,4 +1,5 @@
-//! The functions that bound the aspects of a robot, as a list. How they are evaluated is not said here: the checker does it in its own way.
+//! The functions that bound the aspects of a robot, as a list. How they are evaluated is not said here: the
+//! checker does it in its own way.
 
 mod named;
 mod scale;
@@ -10,7 +11,8 @@ use crate::{LegSet, Limit, Robot};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// One of the functions that bound an aspect. Legs, and the limits of a leg, count from 0 here and from 1 where they are printed.
+/// One of the functions that bound an aspect. Legs, and the limits of a leg, count from 0 here and from 1
+/// where they are printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Constraint {
     /// H_j of leg j.
@@ -21,19 +23,20 @@ pub enum Constraint {
     Det,
 }
 
-/// What a constraint keeps a robot from.
+/// The kind of configuration that a constraint excludes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A serial singularity of this leg.
     Serial(usize),
     /// A parallel singularity.
     Parallel,
-    /// What the machine cannot do: its joint limits.
+    /// A configuration beyond a joint limit.
     Limit,
 }
 
 impl Constraint {
-    /// All constraints of a robot, leg by leg; first those of the pose alone. det A, which needs all legs, is the last.
+    /// Returns all constraints of a robot, leg by leg; first those of the pose alone. det A, which needs all
+    /// legs, is the last.
     pub fn of(robot: &Robot) -> impl Iterator<Item = Self> {
         let of_leg = |(j, leg): (usize, &crate::Leg)| {
             let reach = (leg.actuator.postures() == 2).then_some(Self::Reach(j));
@@ -42,7 +45,7 @@ impl Constraint {
         robot.legs.iter().enumerate().flat_map(of_leg).chain([Self::Det])
     }
 
-    /// What it keeps the robot from.
+    /// Returns the kind of configuration that it excludes.
     pub fn kind(self) -> Kind {
         match self {
             Self::Reach(j) => Kind::Serial(j),
@@ -83,7 +86,7 @@ impl Constraint {
         }
     }
 
-    /// Its name, with the joint that it limits.
+    /// Returns its name, with the joint that it limits.
     pub fn named(self, robot: &Robot) -> String {
         match self {
             Self::Limit(j, k) => format!("{} limit of leg {}", robot.legs[j].limits[k].joint(), j + 1),

@@ -27,12 +27,12 @@ impl From<Constraint> for Named {
     }
 }
 
-/// For `serialize_with`.
+/// Writes a constraint, for `serialize_with`.
 pub fn constraint<S: Serializer>(constraint: &Constraint, serializer: S) -> Result<S::Ok, S::Error> {
     Named::from(*constraint).serialize(serializer)
 }
 
-/// The same where there may be none.
+/// Writes a constraint, or null where there is none.
 pub fn if_any<S: Serializer>(constraint: &Option<Constraint>, serializer: S) -> Result<S::Ok, S::Error> {
     constraint.map(Named::from).serialize(serializer)
 }

@@ -16,7 +16,7 @@ const HALF: Interval = Interval::point(0.5);
 const GREATEST: f64 = 1e6;
 const SMALLEST: f64 = 1e-6;
 
-/// What the conversion needs to know besides the tables.
+/// The facts that the conversion needs besides the tables.
 pub(super) struct Context<'a> {
     /// The file, to compare numbers as written with numbers as read.
     pub text: &'a str,
@@ -44,7 +44,8 @@ pub(super) fn robot(file: &RobotFile, text: &str) -> Result<Robot, Fault> {
     Ok(robot)
 }
 
-/// Where legs and platform do not fit: at the first leg too many, the last of too few, or the kind.
+/// Returns the fault of legs that do not fit the platform, placed at the first leg too many, the last of too
+/// few, or the kind.
 fn misfit(file: &RobotFile, error: RobotError) -> Fault {
     let leg = |k: usize| file.legs.get(k).map(|l| l.span.clone());
     let span = match &error {

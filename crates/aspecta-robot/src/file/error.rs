@@ -1,4 +1,4 @@
-//! What can be wrong with a robot file, said so that the reader can mend it.
+//! The mistakes a robot file can have, worded so that the reader can mend them.
 
 use super::format::hint;
 use crate::RobotError;
@@ -20,7 +20,7 @@ pub enum FileError {
     /// Neither a built-in robot nor a file.
     #[error("`{name}` is neither a built-in robot nor a file{}; built-in robots: {}", suggest(.closest), super::catalogue_names())]
     UnknownRobot {
-        /// What was asked for.
+        /// The name asked for.
         name: String,
         /// Built-in names that look like it, most similar first.
         closest: Vec<String>,
@@ -45,7 +45,7 @@ pub struct Mistake {
     pub key: String,
     /// The value as the file has it; empty for tables and missing keys.
     pub value: String,
-    /// What is wrong.
+    /// The mistake.
     pub problem: Problem,
     /// The line of the file.
     pub source_line: String,
@@ -112,7 +112,7 @@ pub enum Problem {
     MissingKey {
         /// The key.
         key: String,
-        /// What to write.
+        /// Advice on what to write.
         hint: &'static str,
     },
     /// A key that has no meaning on this robot.
@@ -177,7 +177,7 @@ pub enum Problem {
     /// An angle outside the range that has a meaning.
     #[error("{what} must lie {range}; give an angle in that range")]
     AngleOutOfRange {
-        /// What it is the angle of.
+        /// The quantity that it is an angle of.
         what: &'static str,
         /// The range.
         range: &'static str,
@@ -185,13 +185,13 @@ pub enum Problem {
     /// A plain range for an angle.
     #[error("{what} is an angle: give its unit, {{ deg = [min, max] }} or {{ rad = [min, max] }}")]
     AngleWanted {
-        /// What it is.
+        /// The offending value, described.
         what: String,
     },
     /// An angular range for a length.
     #[error("{what} is a length: give a plain range, [min, max]")]
     LengthWanted {
-        /// What it is.
+        /// The offending value, described.
         what: String,
     },
     /// A window on a coordinate the platform does not have.
@@ -235,7 +235,7 @@ fn suggest(closest: &[String]) -> String {
     }
 }
 
-/// Those of `names` that look like `word`, most similar first.
+/// Returns those of `names` that resemble `word`, most similar first.
 pub(super) fn closest<'a>(word: &str, names: impl IntoIterator<Item = &'a str>) -> Vec<String> {
     let mut scored: Vec<_> = names.into_iter().map(|n| (strsim::jaro_winkler(word, n), n)).collect();
     scored.retain(|(score, _)| *score > 0.8);

@@ -246,13 +246,13 @@ impl ActuatorTable {
     }
 }
 
-/// Where the kind of a leg is missing.
+/// The hint for a leg whose kind is missing.
 static KINDS: LazyLock<String> = LazyLock::new(|| {
     let names: Vec<_> = Kind::ALL.iter().map(|kind| format!("`{}`", kind.name())).collect();
     format!("one of {}", names.join(", "))
 });
 
-/// What to write for a missing key.
+/// Returns advice on what to write for a missing key.
 pub(super) fn hint(key: &str) -> &'static str {
     match key {
         "name" => "give the robot a short name, name = \"my-robot\"",

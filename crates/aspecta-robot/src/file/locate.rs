@@ -19,8 +19,8 @@ impl Fault {
         Self { span: span.clone(), problem }
     }
 
-    /// What serde or the TOML parser says, in the words of robot files. Their messages name keys and values
-    /// in backquotes; the tests of the messages hold that to be so.
+    /// Translates an error of serde or the TOML parser into the words of robot files. Their messages name
+    /// keys and values in backquotes; the tests of the messages hold that to be so.
     pub fn from_serde(error: &toml::de::Error, text: &str, tree: &DeTable<'_>) -> Self {
         let message = error.message();
         let span = error.span().unwrap_or(text.len()..text.len());
@@ -79,7 +79,8 @@ impl Fault {
     }
 }
 
-/// The keys that the actuator with a key at `span` takes beside `kind`, if there is one and its kind is known.
+/// The keys that the actuator with a key at `span` takes beside `kind`, if there is one and its kind is
+/// known.
 fn keys_taken(tree: &DeTable<'_>, span: &Span<usize>) -> Option<&'static [&'static str]> {
     let word = |table: &DeTable<'_>, key: &str| Some(table.get(key)?.get_ref().as_str()?.to_owned());
     let legs = tree.get("legs")?.get_ref().as_array()?;

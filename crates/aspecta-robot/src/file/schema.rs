@@ -98,8 +98,8 @@ impl JsonSchema for Range {
     }
 }
 
-/// In the schema, each kind requires its keys and takes no others (a planar leg may do without those that say how
-/// it stands in space; the schema does not know the platform).
+/// In the schema, each kind requires its keys and takes no others (a planar leg may do without those that say
+/// how it stands in space; the schema does not know the platform).
 pub(super) fn keys_of_each_kind(schema: &mut Schema) {
     let all: Vec<String> = schema
         .get("properties")

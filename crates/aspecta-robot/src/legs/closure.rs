@@ -1,8 +1,9 @@
-//! What the kinds of legs answer in: the leg equation with q eliminated, the driven joint, the end of a locked leg.
+//! The types in which kinds of legs answer: the leg equation with q eliminated, the driven joint, the end of
+//! a locked leg.
 
 use crate::num::{Interval, Scalar};
 
-/// What the leg equation becomes once q is eliminated, for both inverse solutions at once.
+/// The leg equation with q eliminated, for both inverse solutions at once.
 ///
 /// With s = ±1 the posture and h = √reach, B = ∂f/∂q has the sign of s, and
 ///
@@ -12,7 +13,8 @@ use crate::num::{Interval, Scalar};
 #[derive(Clone, Copy, Debug)]
 pub struct Closure<T, const D: usize> {
     /// H: the leg closes strictly where H > 0; H = 0 is its serial singularity. s h is a constant fraction of
-    /// ∂f/∂q ([`Actuator::signed_height`](super::Actuator::signed_height)). Struts close everywhere: their H is ‖d‖².
+    /// ∂f/∂q ([`Actuator::signed_height`](super::Actuator::signed_height)). Struts close everywhere: their H
+    /// is ‖d‖².
     pub reach: T,
     /// A factor ≥ 0, zero only where q is free (C on the axis of the crank).
     pub weight: T,
@@ -48,7 +50,7 @@ impl Drive<f64> {
     }
 }
 
-/// What a leg leaves its end C while its actuator is locked, in the leg's frame.
+/// The points that the end C of a leg can reach while its actuator is locked, in the leg's frame.
 #[derive(Clone, Copy, Debug)]
 pub enum LockedEnd<const D: usize> {
     /// C is on a sphere (a circle in the plane): the leg has become a strut.
@@ -72,7 +74,7 @@ pub enum LockedEnd<const D: usize> {
 pub struct RigidRod {
     /// Its length, approximately.
     pub length: f64,
-    /// What its other end B runs on.
+    /// The curve that its other end B runs on.
     pub elbow: Elbow,
 }
 

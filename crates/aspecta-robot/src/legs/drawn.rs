@@ -3,7 +3,7 @@
 use crate::num::{Interval, Scalar, each};
 use crate::{Leg, out_of_frame};
 
-/// Where the joints of a leg are, in base coordinates.
+/// The positions of a leg's joints, in base coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Points<T, const D: usize> {
     /// A_i (spherical: the unit vector of the base joint).
@@ -30,7 +30,7 @@ pub(super) fn beyond_anchor<T: Scalar, const D: usize>(leg: &Leg, v: &[T; D]) ->
 }
 
 impl<const D: usize> Points<f64, D> {
-    /// The same in space; the third coordinate is 0 in the plane.
+    /// Returns the positions as points of space; in the plane the third coordinate is 0.
     pub fn in_space(&self) -> Points<f64, 3> {
         let lift = |v: [f64; D]| std::array::from_fn(|k| v.get(k).copied().unwrap_or(0.0));
         Points { a: lift(self.a), b: self.b.map(lift), c: lift(self.c), rail: self.rail.map(|r| r.map(lift)) }
@@ -40,13 +40,13 @@ impl<const D: usize> Points<f64, D> {
 /// A part of a drawn leg.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Part {
-    /// What it does, which its colour tells.
+    /// The role that its colour shows.
     pub role: Role,
-    /// What a legend calls it, in the words of robot files.
+    /// Its name in a legend, in the words of robot files.
     pub name: &'static str,
 }
 
-/// What a part of a leg does.
+/// The role of a part of a leg.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     /// It is driven.
@@ -67,7 +67,7 @@ impl Part {
 /// A rigid body of a leg, straight between two points. Until it moves its axes are those of the base.
 #[derive(Clone, Copy, Debug)]
 pub struct Body {
-    /// What it is called.
+    /// Its name.
     pub name: &'static str,
     /// Its origin, from that of the body before it (the base's for the first).
     pub place: [f64; 3],
@@ -87,12 +87,12 @@ pub enum Joint {
     },
     /// By a passive joint at its origin: about the plane's normal, or a ball in space.
     Passive {
-        /// What it is called.
+        /// Its name.
         name: &'static str,
     },
     /// By a passive joint about an axis.
     Hinge {
-        /// What it is called.
+        /// Its name.
         name: &'static str,
         /// The axis.
         axis: [f64; 3],
@@ -102,7 +102,7 @@ pub enum Joint {
 /// A length or an angle of a leg.
 #[derive(Clone, Copy, Debug)]
 pub struct Dimension {
-    /// What it is called, as in robot files.
+    /// Its name, as in robot files.
     pub name: &'static str,
     /// How great it is, approximately; `None` if that is open.
     pub size: Option<Size>,

@@ -1,16 +1,16 @@
-//! What holds for all legs of a kind.
+//! The facts that hold for all legs of a kind.
 
 use super::Part;
 use crate::Platform;
 
-/// What holds for all legs of a kind.
+/// The facts that hold for all legs of a kind.
 #[derive(Debug)]
 pub struct Facts {
     /// The name used in robot files.
     pub name: &'static str,
     /// The keys beside `kind` that such an actuator has in a robot file in the plane; it takes no others.
     pub planar_keys: &'static [&'static str],
-    /// The same in space, where it needs them all.
+    /// The keys of a leg in space, all of which it needs.
     pub spatial_keys: &'static [&'static str],
     /// Whether the leg drives a platform that turns about a point, and no other.
     pub is_on_sphere: bool,
@@ -31,7 +31,8 @@ pub struct Facts {
 }
 
 impl Facts {
-    /// The keys beside `kind` that such an actuator needs in the plane (2) or in space (3); it takes no others.
+    /// The keys beside `kind` that such an actuator needs in the plane (2) or in space (3); it takes no
+    /// others.
     pub const fn keys(&self, space: usize) -> &'static [&'static str] {
         if space == 2 { self.planar_keys } else { self.spatial_keys }
     }

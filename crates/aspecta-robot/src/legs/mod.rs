@@ -1,9 +1,9 @@
 //! The kinds of legs: all that the program knows of a kind stands in the kind's file.
 //!
-//! Formulas are written in the leg's own frame u, v, w, with d = C − A = (α, β, γ) (γ is absent in the
-//! plane) and for any scalar. [`LegKind`] lists what a kind is asked; [`Actuator`] is one of the kinds and
-//! hands each question on to its file. Nobody outside asks of which kind a leg is, but the checker, which has
-//! formulas of its own.
+//! Formulas are written in the leg's own frame u, v, w, with d = C − A = (α, β, γ) (γ is absent in the plane)
+//! and for any scalar. `LegKind` lists the questions that a kind answers; [`Actuator`] is one of the kinds
+//! and hands each question on to its file. Nobody outside asks of which kind a leg is, but the checker, which
+//! has formulas of its own.
 //!
 //! This room and [`crate`] are one floor: a leg of a robot holds an actuator, and a kind makes a leg
 //! from the keys of a robot file.
@@ -45,7 +45,7 @@ macro_rules! kinds {
             /// All kinds.
             pub const ALL: &'static [Self] = &[$(Self::$kind),+];
 
-            /// What holds for all legs of the kind.
+            /// The facts that hold for all legs of the kind.
             pub const fn facts(self) -> &'static Facts {
                 match self {
                     $(Self::$kind => &$kind::FACTS),+
@@ -68,7 +68,7 @@ macro_rules! kinds {
         }
 
         impl Actuator {
-            /// Of which kind it is.
+            /// Returns its kind.
             pub const fn kind(&self) -> Kind {
                 match self {
                     $(Self::$kind(_) => Kind::$kind),+
@@ -110,9 +110,9 @@ macro_rules! of_kind {
 /// Makes the trait [`LegKind`] from a list of questions, and a method of [`Actuator`] for each of them.
 macro_rules! questions {
     ($($(#[$doc:meta])* fn $name:ident $([$($generic:tt)+])? (&self $(, $given:ident: $type:ty)*) -> $answer:ty;)+) => {
-        /// What a kind of leg must know.
+        /// The questions that every kind of leg answers.
         pub(crate) trait LegKind: Copy + Into<Actuator> {
-            /// What holds for all legs of the kind.
+            /// The facts that hold for all legs of the kind.
             const FACTS: Facts;
 
             /// The leg that the keys of a robot file describe, without its limits.
@@ -172,8 +172,8 @@ questions! {
     /// zero to keep away from. Makes reaches comparable.
     fn greatest_reach(&self) -> Option<Interval>;
 
-    /// The size of [`Closure::weight`] where q is far from free, approximately; `None` if a driven joint that is
-    /// nearly free is not looked for.
+    /// The size of [`Closure::weight`] where q is far from free, approximately; `None` if a driven joint that
+    /// is nearly free is not looked for.
     fn usual_weight(&self) -> Option<f64>;
 
     /// The size of the terms of the leg equation, approximately, to judge a residual by.
@@ -185,32 +185,34 @@ questions! {
     /// [`Actuator::size`] of a leg whose driven joint is at q: the length of a strut.
     fn size_at(&self, q: f64) -> f64;
 
-    /// The size of the numbers that go into q, of which rounding leaves a few units in the last place open, seen
-    /// as an angle of the crank where q is one; `ends` is the size of the coordinates of A and C.
+    /// The size of the numbers that go into q, of which rounding leaves a few units in the last place open,
+    /// seen as an angle of the crank where q is one; `ends` is the size of the coordinates of A and C.
     fn rounded_size(&self, ends: f64, q: f64) -> f64;
 
     // ---- Reach.
 
-    /// Bounds of the base coordinate k of C, as (centre, radius), that the leg alone proves; `None` if it proves none.
+    /// Bounds of the base coordinate k of C, as (centre, radius), that the leg alone proves; `None` if it
+    /// proves none.
     fn extent(&self, leg: &Leg, k: usize) -> Option<(Interval, Interval)>;
 
-    /// How far the rod's length is from the range of distances between C and the places its other end can take,
-    /// ≥ 0: a length, or an angle (rad) for spherical legs.
+    /// Returns how far the rod's length is from the range of distances between C and the places its other end
+    /// can take, ≥ 0: a length, or an angle (rad) for spherical legs.
     fn gap[const D: usize](&self, d: &[f64; D]) -> f64;
 
     // ---- Places.
 
-    /// B − A in the leg's frame, or the direction of the intermediate joint of a spherical leg; `None` if nothing
-    /// is between the driven joint and C.
+    /// B − A in the leg's frame, or the direction of the intermediate joint of a spherical leg; `None` if
+    /// nothing is between the driven joint and C.
     fn elbow[T: Scalar, const D: usize](&self, q: T) -> Option<[T; D]>;
 
-    /// What the leg leaves C while its actuator is locked at q.
+    /// Returns the points that C can reach while the actuator is locked at q.
     fn locked[const D: usize](&self, q: Interval) -> LockedEnd<D>;
 
     /// The rod of constant length that ends in C, and the curve of its other end, if the leg has one.
     fn rigid_rod(&self) -> Option<RigidRod>;
 
-    /// Where the joints are, in the base: `span` is d and `arm` goes from the platform's origin to C.
+    /// Returns the joints' positions in the base; `span` is d, and `arm` goes from the platform's origin to
+    /// C.
     fn points[T: Scalar, const D: usize](&self, leg: &Leg, span: &[T; D], arm: &[T; D], q: T) -> Points<T, D>;
 
     // ---- Descriptions.
@@ -238,12 +240,13 @@ impl Kind {
 }
 
 impl Actuator {
-    /// f(d, q), the left side of the leg equation f = 0. Lengths squared, except for spherical legs (a cosine).
+    /// f(d, q), the left side of the leg equation f = 0. Lengths squared, except for spherical legs (a
+    /// cosine).
     pub fn equation<T: Scalar, const D: usize>(&self, d: &[T; D], q: T) -> T {
         self.equation_turned(d, q, || q.sin_cos())
     }
 
-    /// How many inverse solutions the leg has: 2, or 1 for a strut.
+    /// Returns how many inverse solutions the leg has: 2, or 1 for a strut.
     pub const fn postures(&self) -> usize {
         self.kind().facts().postures
     }

@@ -9,8 +9,8 @@ use crate::{Fault, Leg, LegKeys, out_of_frame};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
-/// w_i = cos(proximal) w + sin(proximal)(cos q u + sin q v) is the intermediate joint, at the angle `distal` of
-/// the platform joint v_i: f = w_i · v_i − cos(distal).
+/// w_i = cos(proximal) w + sin(proximal)(cos q u + sin q v) is the intermediate joint, at the angle `distal`
+/// of the platform joint v_i: f = w_i · v_i − cos(distal).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Spherical {
@@ -68,7 +68,8 @@ impl LegKind for Spherical {
         (cos * d[0] + sin * d[1]).scale(sin_p) + d[D - 1].scale(cos_p) - T::constant(self.distal_cos)
     }
 
-    /// As for revolute legs, with (a, b) = −sin(proximal)(α, β), k = cos(proximal) γ − cos(distal), ‖d‖ = 1.
+    /// Eliminates q as for revolute legs, with (a, b) = −sin(proximal)(α, β), k = cos(proximal) γ −
+    /// cos(distal), ‖d‖ = 1.
     fn eliminate<T: Scalar, const D: usize>(&self, d: &[T; D]) -> Closure<T, D> {
         let (cos_p, sin_p) = self.proximal;
         let zero = T::zero();

@@ -20,7 +20,7 @@ fn norm<const D: usize>(v: &[f64; D]) -> f64 {
     dot(v, v).sqrt()
 }
 
-/// What a kind says of its configurations fits together: equation, elimination, drive, norms and places.
+/// Asserts that the answers of a kind agree: equation, elimination, drive, norms and places.
 fn check<const D: usize>(kind: Kind, random: &mut Random) -> usize {
     let actuator = sample(kind);
     let near = |what: &str, a: f64, b: f64| assert!((a - b).abs() < 1e-9, "{kind:?} {what}: {a} {b}");

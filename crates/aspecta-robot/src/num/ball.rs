@@ -3,7 +3,8 @@
 use super::{Interval, Scalar};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Half the distance from 1 to the next double: a result rounded to nearest is off by at most this share of itself.
+/// Half the distance from 1 to the next double: a result rounded to nearest is off by at most this share of
+/// itself.
 pub(super) const UNIT: f64 = f64::EPSILON / 2.0;
 /// Makes up for the roundings of a radius itself: at most six operations, each losing at most `UNIT`.
 const ENLARGE: f64 = 1.0 + 8.0 * f64::EPSILON;
@@ -12,12 +13,14 @@ pub(super) const TINY: f64 = 1e-290;
 
 /// All x with |x − mid| ≤ rad.
 ///
-/// For narrow ranges that need not be cut: a product takes a quarter of the time of an [`Interval`]'s, without a branch. A radius
-/// that is infinite or NaN means that nothing is known; what compares with it is false.
+/// For narrow ranges that need not be cut: a product takes a quarter of the time of an [`Interval`]'s,
+/// without a branch. A radius that is infinite or NaN means that nothing is known; what compares with it is
+/// false.
 ///
-/// Each operation rounds the midpoint to nearest, which is off by at most u |mid| (and by less than TINY if it
-/// underflows), u = 2⁻⁵³, and adds that to the radius that exact arithmetic would give. The radius is computed in at most six roundings of
-/// non-negative terms, each losing at most the share u, and is then multiplied by 1 + 16 u.
+/// Each operation rounds the midpoint to nearest, which is off by at most u |mid| (and by less than TINY if
+/// it underflows), u = 2⁻⁵³, and adds that to the radius that exact arithmetic would give. The radius is
+/// computed in at most six roundings of non-negative terms, each losing at most the share u, and is then
+/// multiplied by 1 + 16 u.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ball {
     /// The midpoint.
@@ -33,13 +36,14 @@ impl Ball {
         Self { mid: x, rad: 0.0 }
     }
 
-    /// All that is at most `rad` from zero.
+    /// Returns the ball of numbers at most `rad` from zero.
     #[inline(always)]
     pub const fn about_zero(rad: f64) -> Self {
         Self { mid: 0.0, rad }
     }
 
-    /// A ball with this midpoint as computed and a radius from at most four rounded operations on numbers ≥ 0.
+    /// A ball with this midpoint as computed and a radius from at most four rounded operations on numbers
+    /// ≥ 0.
     #[inline(always)]
     fn rounded(mid: f64, rad: f64) -> Self {
         Self { mid, rad: (rad + mid.abs() * UNIT) * ENLARGE + TINY }

@@ -6,8 +6,9 @@ use std::ops::{Add, Mul, Neg, Sub};
 
 /// All complex z with |z − (re + i im)| ≤ rad.
 ///
-/// Like [`Ball`] for real numbers: each operation computes the centre in double precision and adds what rounding may have done to the
-/// radius. A radius that is infinite or NaN means that nothing is known; what compares with it is false.
+/// Like [`Ball`] for real numbers: each operation computes the centre in double precision and adds what
+/// rounding may have done to the radius. A radius that is infinite or NaN means that nothing is known; what
+/// compares with it is false.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Disc {
     /// Real part of the centre.
@@ -18,7 +19,8 @@ pub struct Disc {
     pub rad: f64,
 }
 
-/// Makes up for the roundings of a radius itself: at most eight operations on numbers ≥ 0, each losing at most the share u.
+/// Makes up for the roundings of a radius itself: at most eight operations on numbers ≥ 0, each losing at
+/// most the share u.
 const ENLARGE: f64 = 1.0 + 16.0 * f64::EPSILON;
 
 impl Disc {
@@ -83,8 +85,9 @@ impl Sub for Disc {
 
 impl Mul for Disc {
     type Output = Self;
-    /// Each part is made of two products and a sum: off by at most 2u(1 + u) of the sum of their moduli, and those of both parts sum up
-    /// to the product of the sizes. |z w − c d| ≤ |c| rad w + |d| rad z + rad z rad w for the rest.
+    /// Each part is made of two products and a sum: off by at most 2u(1 + u) of the sum of their moduli, and
+    /// those of both parts sum up to the product of the sizes. |z w − c d| ≤ |c| rad w + |d| rad z + rad z
+    /// rad w for the rest.
     #[inline(always)]
     fn mul(self, b: Self) -> Self {
         let (m, n) = (self.size(), b.size());

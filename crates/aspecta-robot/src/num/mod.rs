@@ -52,7 +52,7 @@ pub trait Scalar:
     /// (sin, cos) of an angle in radians.
     fn sin_cos(self) -> (Self, Self);
 
-    /// The same number, enclosed as tightly as its own slopes allow; nothing to do for other scalars.
+    /// Returns the number enclosed as tightly as its own slopes allow; other scalars are returned unchanged.
     #[inline(always)]
     fn tightened(self) -> Self {
         self
@@ -93,7 +93,7 @@ impl Scalar for f64 {
 
 /// `each!(|k| e)`: the array [e(0), e(1), …], as long as its place wants it.
 ///
-/// For the kernels. `std::array::from_fn` does the same, but the calls of its closure are not reliably
+/// It is for the kernels. `std::array::from_fn` does the same, but the calls of its closure are not reliably
 /// inlined, and packs that pass through memory cost several times what they compute (`docs/performance.md`).
 #[macro_export]
 macro_rules! each {

@@ -73,9 +73,9 @@ impl Pack {
         p
     }
 
-    /// The common part, lane by lane, of two enclosures of the same numbers. A lane comes out empty (lo > hi) only if
-    /// there is no number to enclose: a function evaluated where it has no value. Whatever is then concluded of its
-    /// values is vacuously true.
+    /// The common part, lane by lane, of two enclosures of the same numbers. A lane comes out empty (lo > hi)
+    /// only if there is no number to enclose: a function evaluated where it has no value. Whatever is then
+    /// concluded of its values is vacuously true.
     #[inline(always)]
     pub fn meet(self, b: Self) -> Self {
         Self::lanes(|k| (most(self.lo[k], b.lo[k]), least(self.hi[k], b.hi[k])))

@@ -11,8 +11,9 @@ pub trait Enclosure: Scalar {
     /// [−m, m] with m the greatest magnitude in `self`.
     fn symmetric(self) -> Self;
 
-    /// For f with f(x) ∈ `range`, f(c) ∈ `centre`: enclosures (r, k) such that √f(x) − r ∋ k (f(x) − f(c)) for all x
-    /// with f(x) ≥ 0, with r ∋ √f(c) and k ∋ 1/(√f(x) + √f(c)) where f(c) > 0 is proved, else r ∋ √f(x), k = 0.
+    /// For f with f(x) ∈ `range`, f(c) ∈ `centre`: enclosures (r, k) such that √f(x) − r ∋ k (f(x) − f(c))
+    /// for all x with f(x) ≥ 0, with r ∋ √f(c) and k ∋ 1/(√f(x) + √f(c)) where f(c) > 0 is proved, else r ∋
+    /// √f(x), k = 0.
     fn root_slope(range: Self, centre: Self) -> (Self, Self);
 }
 
@@ -103,11 +104,12 @@ macro_rules! kernel {
 ///
 /// > f(c + r∘t) ∈ f(c) + Σ sₖ tₖ.
 ///
-/// Sums and products are calls on references, not inlined: over packs each is several hundred instructions, and a
-/// kernel made of hundreds of them would neither fit the instruction cache nor compile in reasonable time.
+/// Sums and products are calls on references, not inlined: over packs each is several hundred instructions,
+/// and a kernel made of hundreds of them would neither fit the instruction cache nor compile in reasonable
+/// time.
 ///
-/// The rules are those of Krawczyk and Neumaier (1985). For the same cost as a gradient over the box, a slope is
-/// about half as wide, so the centred form is twice as tight; and the slope of √f is bounded where f
+/// The rules are those of Krawczyk and Neumaier (1985). For the same cost as a gradient over the box, a slope
+/// is about half as wide, so the centred form is twice as tight; and the slope of √f is bounded where f
 /// reaches zero inside the box, where the derivative is not.
 #[derive(Clone, Copy, Debug)]
 pub struct Slope<T, const N: usize> {

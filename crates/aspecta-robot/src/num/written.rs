@@ -8,7 +8,8 @@ pub fn count<N: Display + PartialEq + From<u8>>(n: N, one: &str, many: &str) -> 
     format!("{n} {what}")
 }
 
-/// A number as people write it: plain, or with a power of ten where its digits would fill lines. Zero has no sign.
+/// A number as people write it: plain, or with a power of ten where its digits would fill lines. Zero has no
+/// sign.
 pub fn written(x: f64) -> String {
     let size = x.abs();
     let plain = size == 0.0 || (1e-9..1e16).contains(&size) || !x.is_finite();

@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// How far the work has come.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
-    /// What is being done.
+    /// The name of the stage.
     pub stage: &'static str,
     /// Steps done in this stage.
     pub done: u64,
@@ -41,7 +41,7 @@ pub struct Control<'a> {
 }
 
 impl Control<'static> {
-    /// For work that no one watches: progress is not shown and nothing stops it.
+    /// Returns the control of work that no one watches: progress is not shown and nothing stops it.
     pub fn unwatched() -> Self {
         static NEVER: AtomicBool = AtomicBool::new(false);
         Self { cancelled: &NEVER, progress: &|_| {} }

@@ -1,7 +1,8 @@
 //! Work spread over threads, in the order of its items whatever the number of threads.
 //!
-//! The pool (`rayon`, behind the feature `threads`) sees nothing but a `dyn Fn(usize)`: its machinery is compiled once, not once for
-//! each task of each robot's dimensions, which was a seventh of the library's code.
+//! The pool (`rayon`, behind the feature `threads`) sees nothing but a `dyn Fn(usize)`: its machinery is
+//! compiled once, not once for each task of each robot's dimensions, which was a seventh of the library's
+//! code.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -66,7 +67,8 @@ pub fn thread_count() -> usize {
     return 1;
 }
 
-/// Does `work` on as many threads, each with a stack of so many bytes; on those there are, where none can be had.
+/// Does `work` on as many threads, each with a stack of so many bytes; on those there are, where none can be
+/// had.
 pub fn with_stack<R: Send>(bytes: usize, work: impl FnOnce() -> R + Send) -> R {
     #[cfg(feature = "threads")]
     if let Ok(pool) = rayon::ThreadPoolBuilder::new().num_threads(thread_count()).stack_size(bytes).build() {

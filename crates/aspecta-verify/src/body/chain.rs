@@ -7,8 +7,8 @@ use aspecta_robot::num::{Interval, Scalar};
 use aspecta_robot::{Leg, Spherical};
 
 impl<T: Scalar, const D: usize> Body<'_, T, D> {
-    /// Puts the platform where the angles of a chain do: R = R_z(q) R_y(a) R_z(ψ) R_y(b) R_z(ϑ) in the leg's frame, of a platform whose
-    /// joint is along z.
+    /// Puts the platform where the angles of a chain do: R = R_z(q) R_y(a) R_z(ψ) R_y(b) R_z(ϑ) in the leg's
+    /// frame, of a platform whose joint is along z.
     pub(super) fn turn_by(&mut self, chain: &Chain, y: &[T; MOST]) {
         let leg = &self.robot.legs[chain.leg];
         let Some(links) = Links::of(leg) else { return };
@@ -34,7 +34,8 @@ impl<T: Scalar, const D: usize> Body<'_, T, D> {
 }
 
 impl<const D: usize> Body<'_, Interval, D> {
-    /// The pose of a platform that turns about a point, as far as these are small intervals away from the poles of the pitch; else anything.
+    /// The pose of a platform that turns about a point, as far as these are small intervals away from the
+    /// poles of the pitch; else anything.
     pub(crate) fn roll_pitch_yaw(&self) -> [Interval; 3] {
         let Some(columns) = self.rotation else { return [Interval::ENTIRE; 3] };
         let (x, low) = (columns[0], columns.map(|column| column[D - 1]));
@@ -43,7 +44,8 @@ impl<const D: usize> Body<'_, Interval, D> {
         [angle(low[D - 1], low[1]), pitch, angle(x[0], x[1])]
     }
 
-    /// The coordinates of a chain that holds all configurations: those with sin ψ ≥ 0 and those with sin ψ ≤ 0; entries beyond are zero.
+    /// The coordinates of a chain that holds all configurations: those with sin ψ ≥ 0 and those with sin ψ ≤
+    /// 0; entries beyond are zero.
     pub(crate) fn joint_angles(&self, chain: &Chain) -> [[Interval; MOST]; 2] {
         let (leg, zero) = (&self.robot.legs[chain.leg], Interval::point(0.0));
         let anything = [Interval::ENTIRE, Interval::ENTIRE, Interval::ENTIRE, zero, zero, zero];
@@ -58,7 +60,8 @@ impl<const D: usize> Body<'_, Interval, D> {
             let unturned: [Interval; D] = links.turned((sin, cos), unit(2));
             let q = angle(v[0], v[1]) - angle(unturned[0], unturned[1]);
             let (sin_q, cos_q) = q.sin_cos();
-            // Back through the motor's angle: what is left of R is R_y(a) R_z(ψ) R_y(b) R_z(ϑ), and takes the first axis to that of y.
+            // Back through the motor's angle: what is left of R is R_y(a) R_z(ψ) R_y(b) R_z(ϑ), and takes the
+            // first axis to that of y.
             let back = turned(cos_q, -sin_q, &first);
             let (x, y) = (links.turned((sin, cos), unit(0)), links.turned((sin, cos), unit(1)));
             let theta = angle(product(&y, &back), -product(&x, &back));

@@ -25,7 +25,7 @@ pub(crate) fn slope_per_root(actuator: &Actuator) -> f64 {
     }
 }
 
-/// How far inside a range of driven lengths q is.
+/// Returns how far inside a range of driven lengths q is.
 pub(super) fn length_margin<T: Scalar, const D: usize>(
     actuator: &Actuator,
     d: &[T; D],
@@ -80,8 +80,8 @@ pub(super) fn rod<T: Scalar, const D: usize>(
 
 /// q of a leg in posture s = `sign`, for all spans in `d`, H being in `reach`.
 ///
-/// With (a, b) = ρ(cos θ, sin θ) the equation is k = ρ cos(q − θ), and ∂f/∂q = ρ sin(q − θ) = s√H: q is θ plus the
-/// angle of (k, s√H).
+/// With (a, b) = ρ(cos θ, sin θ) the equation is k = ρ cos(q − θ), and ∂f/∂q = ρ sin(q − θ) = s√H: q is θ
+/// plus the angle of (k, s√H).
 pub(crate) fn joint<const D: usize>(
     actuator: &Actuator,
     d: &[Interval; D],

@@ -23,7 +23,7 @@ pub enum Unsound {
         /// Leaves of all sheets.
         leaves: usize,
     },
-    /// A tree that is none.
+    /// Text that is not the encoding of a tree.
     #[error("sheet {sheet}: {error}")]
     Tree {
         /// The sheet.
@@ -137,7 +137,8 @@ impl Certificate {
         Ok(())
     }
 
-    /// Bounds that could be proved count distinct leaves. Greater ones say nothing, and their sums could overflow.
+    /// Bounds that could be proved count distinct leaves. Greater ones say nothing, and their sums could
+    /// overflow.
     fn check_claims(&self) -> Result<(), Unsound> {
         let leaves = self.leaves().count();
         for (class, claim) in self.claims.iter().enumerate() {
@@ -152,7 +153,7 @@ impl Certificate {
 
 fn check_fold(robot: &Robot, fold: &Fold) -> Result<(), Part> {
     let leg = robot.legs.get(fold.leg).ok_or(Part::Index { what: "leg of a fold", index: fold.leg })?;
-    holds(takes(&leg.actuator).elbow, "a fold is that of a leg without a crank")?;
+    holds(takes(&leg.actuator).elbow, "the leg of a fold has no crank")?;
     holds(
         matches!(robot.platform, Platform::PlanePoint | Platform::PlaneBody | Platform::TranslatingBody),
         "a fold has a platform that cannot be moved to it without turning",

@@ -32,7 +32,7 @@ pub struct Certificate {
     pub window: Window,
     /// The working modes, in the order of the class bits: class 2m is mode m with det A > 0, class 2m + 1 with det A < 0.
     pub modes: Vec<WorkingMode>,
-    /// What the functions whose minimum is P are divided by.
+    /// The divisors of the functions whose minimum is P.
     pub scale: Scale,
     /// The bounds claimed, one entry per class.
     pub claims: Vec<Claim>,
@@ -58,7 +58,7 @@ pub struct Claim {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sheet {
-    /// What the coordinates are.
+    /// The coordinates in which the boxes are given.
     pub chart: Chart,
     /// The boxes.
     pub tree: Tree,

@@ -7,7 +7,7 @@ use std::fmt::Write;
 /// Greatest depth of a tree.
 pub const DEEPEST: u32 = 30;
 
-/// What is claimed of one box, class by class (the bits of a [`ClassSet`]).
+/// The claims about one box, class by class (the bits of a [`ClassSet`]).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Leaf {
     /// The closed box lies in S_{s,σ}.
@@ -23,7 +23,8 @@ pub struct Leaf {
 /// An entry of a tree in preorder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Entry {
-    /// A box cut into 2^M equal children, which follow; child c lies in the upper half of axis a if bit a of c is set.
+    /// A box cut into 2^M equal children, which follow; child c lies in the upper half of axis a if bit a of
+    /// c is set.
     Split,
     /// A box that is not cut.
     Leaf(Leaf),
@@ -31,8 +32,9 @@ pub enum Entry {
 
 /// A window cut into boxes: a tree in preorder.
 ///
-/// As text, a split is `+`; a leaf is `*` if covered, then `inside:undecided:summitless` in hexadecimal, where zeros and then
-/// trailing colons are left out, then `;`. So `;` is a box outside of everything, and `+4;;:1;*:3:2;` is a window in four.
+/// As text, a split is `+`; a leaf is `*` if covered, then `inside:undecided:summitless` in hexadecimal,
+/// where zeros and then trailing colons are left out, then `;`. So `;` is a box outside of everything, and
+/// `+4;;:1;*:3:2;` is a window in four.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Tree(pub Vec<Entry>);
 
@@ -75,7 +77,8 @@ pub enum TreeError {
 }
 
 impl Tree {
-    /// Whether the entries make a tree whose every split has 2^`axes` children, with claims on `classes` classes.
+    /// Whether the entries make a tree whose every split has 2^`axes` children, with claims on `classes`
+    /// classes.
     ///
     /// # Errors
     /// [`TreeError`]

@@ -3,7 +3,7 @@
 use super::*;
 use aspecta_robot::chart::{Bend, Chain};
 
-/// One mode of a platform that turns about a point.
+/// Returns one mode of a platform that turns about a point.
 fn of_mode(mode: &str, text: &str) -> Certificate {
     let robot = Robot::from_toml(text, "a fixture").unwrap();
     let options = Options { modes: vec![mode.parse().unwrap()], certificate: true, ..Options::default() };
@@ -13,7 +13,7 @@ fn of_mode(mode: &str, text: &str) -> Certificate {
 /// All configurations in the joint angles of the first leg.
 static SPHERE: LazyLock<Certificate> =
     LazyLock::new(|| of_mode("---", include_str!("../../../aspecta/tests/fixtures/limited_sphere.toml")));
-/// Those in which the third leg is nearly folded in its own joint angles.
+/// The configurations in which the third leg is nearly folded, in its own joint angles.
 static BENT: LazyLock<Certificate> =
     LazyLock::new(|| of_mode("-++", include_str!("../../../aspecta/tests/fixtures/folding_sphere.toml")));
 
@@ -93,7 +93,8 @@ fn bends_are_joined_with_the_base() {
     assert!(apart.iter().any(|claim| claim.low == 1 && claim.high > Some(1)), "{apart:?}");
 }
 
-/// Six folds, at both ends of each motor's axis, of which the nearest two are 0.04 rad apart: so are their charts.
+/// Six folds, at both ends of each motor's axis, of which the nearest two are 0.04 rad apart: so are their
+/// charts.
 #[test]
 fn bends_are_disjoint() {
     let mut robot =
@@ -159,7 +160,7 @@ fn a_chain_needs_all_orientations() {
     assert!(error.to_string().contains("leg of a chain 3"), "{error}");
 }
 
-/// What a chart holds is not elsewhere: its own leaves are not covered, or nothing would be left to count.
+/// No chart covers its own leaves, or nothing would be left to count.
 #[test]
 fn no_chart_covers_itself() {
     for certificate in [&FOLDED, &SPHERE] {

@@ -36,7 +36,8 @@ fn is_summitless(window: &str, bounds: [(f64, f64); 3]) -> bool {
     claims::prove::<3>(&setting, &modes, &[], y, claim).is_ok()
 }
 
-/// h_1 rises as the yaw does, and the distance to the wall falls: both are least together at a pass, at a roll of 0.09967 and no pitch.
+/// h_1 rises as the yaw does, and the distance to the wall falls: both are least together at a pass, at a
+/// roll of 0.09967 and no pitch.
 #[test]
 fn between_a_serial_singularity_and_a_wall() {
     let window = "roll = { deg = [-60, 60] }\npitch = { deg = [-50, 50] }\nyaw = { deg = [-30, 100] }";
@@ -46,7 +47,8 @@ fn between_a_serial_singularity_and_a_wall() {
     assert!(!at((0.09945, 0.0999), (-0.0004, 0.0004)));
 }
 
-/// det A, h_1 and the distance to the wall are the least together. H_1 has been proved positive, but h_1 varies by a factor of three.
+/// det A, h_1 and the distance to the wall are the least together. H_1 has been proved positive, but h_1
+/// varies by a factor of three.
 #[test]
 fn in_a_corner_of_three() {
     let window = "roll = { deg = [-70, 50] }";

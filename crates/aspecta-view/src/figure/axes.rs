@@ -84,7 +84,7 @@ impl Chart {
         svg.text([middle, self.top - 7.0], Anchor::Middle, 12.0, "font-weight:600", title);
     }
 
-    /// From the baseline of the vertical axis' label to the plot, pixels.
+    /// Returns the distance from the baseline of the vertical axis' label to the plot, pixels.
     fn label_distance(&self) -> f64 {
         let texts = self.y.ticks(self.height).into_iter().map(|(_, text)| text.chars().count());
         13.0 + 6.0 * texts.max().unwrap_or(0) as f64
@@ -143,7 +143,7 @@ impl Axis {
     }
 }
 
-/// All k with lo ≤ k·step ≤ hi, up to rounding.
+/// Returns all k with lo ≤ k·step ≤ hi, up to rounding.
 fn whole_numbers((lo, hi): (f64, f64), step: f64) -> impl Iterator<Item = i64> {
     let slack = 1e-6;
     (lo / step - slack).ceil() as i64..=(hi / step + slack).floor() as i64

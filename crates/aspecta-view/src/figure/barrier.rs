@@ -9,7 +9,7 @@ use aspecta::kinematics::modal::closures;
 use aspecta::kinematics::placement::{Placement, determinant, out_of_frame, wrench};
 use aspecta::robot::{Platform, Robot};
 
-/// What bounds an aspect.
+/// The kind of curve that bounds an aspect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
     /// B_jj = 0 (Definition 4).

@@ -1,7 +1,7 @@
 //! Basic components (Definition 11): what lies over joint vectors.
 //!
-//! *Numerical*: the number of direct solutions at a joint vector is that of the direct model; which regions they lie in is true to a cell
-//! of the regions' grid.
+//! *Numerical*: the number of direct solutions at a joint vector is that of the direct model; which regions
+//! they lie in is true to a cell of the regions' grid.
 
 use super::axes::Axis;
 use super::barrier::Barriers;
@@ -26,7 +26,8 @@ const FREE: f64 = PI / 3.0;
 const SECTORS: usize = 24;
 /// How finely lines are found.
 const HALVINGS: u32 = 10;
-/// At a folded leg (C = A) its joint is free: pieces of the boundary that are mapped this wide are not drawn, but the change of n is.
+/// At a folded leg (C = A) its joint is free: pieces of the boundary that are mapped this wide are not drawn,
+/// but the change of n is.
 const WIDE: f64 = PI / 3.0;
 /// Room round the image, as a share of its width.
 const MARGIN: f64 = 0.02;
@@ -47,17 +48,19 @@ pub struct JointSpace<'a> {
     boundary: (Vec<[f64; 3]>, Vec<Simplex>),
 }
 
-/// What lies over the joint vectors of a plane.
+/// The sets of regions that lie over the joint vectors of a plane.
 #[derive(Clone, Debug)]
 pub struct Section {
     /// Per pixel, which of `sets` lies over it.
     pub raster: Raster<u32>,
-    /// Regions (from 0) that direct solutions lie in, one entry a solution; [`OUTSIDE`] for those of which it cannot be told.
+    /// Regions (from 0) that direct solutions lie in, one entry a solution; [`OUTSIDE`] for those of which it
+    /// cannot be told.
     pub sets: Vec<Vec<u32>>,
 }
 
 impl<'a> JointSpace<'a> {
-    /// The joint space of an aspect; `None` for one of a slice. `held` is the joint to hold, from 0, if there are three.
+    /// The joint space of an aspect; `None` for one of a slice. `held` is the joint to hold, from 0, if there
+    /// are three.
     pub fn new(cut: &'a Cut<'a>, held: usize) -> Option<Self> {
         let Cut { map, domains, boundary, .. } = *cut;
         let robot = &map.robot;
@@ -113,8 +116,8 @@ impl<'a> JointSpace<'a> {
         }
     }
 
-    /// What lies over the plane at which the held joint is `at`, if one is, in so many pixels a side, two at
-    /// least.
+    /// Returns the regions over the plane in which the fixed joint, if there is one, is `at`, with `pixels` a
+    /// side, two at least.
     pub fn section(&self, at: f64, pixels: usize) -> Section {
         let centres = self.centres(pixels);
         let over = |pixel: usize| self.over(centres.node(pixel % pixels, pixel / pixels), at);

@@ -70,9 +70,11 @@ impl Sheet<'_> {
         self.barriers(p).margins.iter().enumerate().all(|(k, m)| Which::Margin(k) == except || m.1 >= 0.0)
     }
 
-    /// All parts of the curves det A = 0, H_j = 0 and limit = 0 that lie within reach and limits of the mode.
+    /// Returns all parts of the curves det A = 0, H_j = 0 and limit = 0 that lie within reach and limits of
+    /// the mode.
     ///
-    /// A grid finds the curves, so a loop smaller than a grid cell, or a zero without change of sign, is not seen.
+    /// A grid finds the curves, so a loop smaller than a grid cell, or a zero without change of sign, is not
+    /// seen.
     pub fn curves(&self, grid: &Grid) -> Vec<Curve> {
         let nodes = grid.sample(|p| self.barriers(p));
         let Some(first) = nodes.first() else { return Vec::new() };
@@ -88,7 +90,8 @@ impl Sheet<'_> {
         found
     }
 
-    /// The parts of a contour within reach and limits; where it crosses another barrier it ends on that barrier.
+    /// The parts of a contour within reach and limits; where it crosses another barrier it ends on that
+    /// barrier.
     fn cut(&self, which: Which, line: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
         let mut parts = Vec::new();
         let mut part: Vec<[f64; 2]> = Vec::new();
@@ -108,7 +111,7 @@ impl Sheet<'_> {
         parts
     }
 
-    /// Where the curve between a and b enters (`entering`) or leaves the allowed region.
+    /// Returns the point between a and b at which the curve enters (`entering`) or leaves the allowed region.
     fn crossing(&self, which: Which, a: [f64; 2], b: [f64; 2], entering: bool) -> Option<[f64; 2]> {
         let on_curve = |t: f64| project(a, b, t, &|p| self.value(which, p));
         let (mut low, mut high, mut best) = (0.0, 1.0, None);
@@ -124,8 +127,8 @@ impl Sheet<'_> {
         best
     }
 
-    /// The image g_s(curve) in Q, refined until no coordinate q_k steps by more than `step[k]`; angles are unwound, so that the line is
-    /// continuous and may leave (−π, π].
+    /// The image g_s(curve) in Q, refined until no coordinate q_k steps by more than `step[k]`; angles are
+    /// unwound, so that the line is continuous and may leave (−π, π].
     pub fn image(&self, curve: &Curve, step: &[f64]) -> Vec<Vec<f64>> {
         let Some(&first) = curve.points.first() else { return Vec::new() };
         let mut image = vec![self.barriers(first).q];

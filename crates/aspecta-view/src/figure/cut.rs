@@ -1,4 +1,4 @@
-//! What pictures and meshes of an aspect are made of.
+//! The data that pictures and meshes of an aspect are made of.
 
 use aspecta::domain::{Domains, Map, Mesh};
 

@@ -12,11 +12,12 @@ const CLEAR_OF: usize = 40;
 
 /// A robot in motion, in one view that shows it all.
 pub struct Film {
-    /// What stands still, to draw on.
+    /// The still background, to draw on.
     pub svg: Svg,
     /// The robot in each configuration: the same shapes, elsewhere.
     pub frames: Vec<Shapes>,
-    /// Where the platform is in each: its frame's origin, of a platform that only turns the end of its third unit vector.
+    /// The platform's position in each: its frame's origin, or of a platform that only turns the end of its
+    /// third unit vector.
     pub path: Vec<[f64; 2]>,
 }
 

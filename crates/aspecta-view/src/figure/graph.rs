@@ -15,8 +15,8 @@ const MARGIN: f64 = 60.0;
 /// Line styles of legs, cyclic: legs are told apart without colours too.
 const DASHES: [&str; 6] = ["", "7 4", "2 3", "9 3 2 3", "12 5", "4 2"];
 
-/// Two rings, one per sign of det A, which no crossing joins; a line between two aspects is a crossing, by the leg that changes its
-/// posture.
+/// Two rings, one per sign of det A, which no crossing joins; a line between two aspects is a crossing, by
+/// the leg that changes its posture.
 pub fn mode_graph(robot: &Robot, graph: &ModeGraph) -> String {
     let of = |sign: DetSign| graph.aspects.iter().filter(|a| a.det_a == sign).collect::<Vec<_>>();
     let rings = [of(DetSign::Positive), of(DetSign::Negative)];

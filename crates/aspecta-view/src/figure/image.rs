@@ -1,4 +1,5 @@
-//! The image of a set of poses in the joint space: Q-aspects π_Q(A) (Definition 8), drawn on a raster (*numerical*).
+//! The image of a set of poses in the joint space: Q-aspects π_Q(A) (Definition 8), drawn on a raster
+//! (*numerical*).
 
 use super::axes::Axis;
 use super::barrier::Barriers;
@@ -16,9 +17,11 @@ const FINE: f64 = 4.0;
 /// Pixels within this distance (in pixels) of a quadrilateral are drawn too, so that neighbours leave no gap.
 const SLACK: f64 = 0.6;
 
-/// Draws the images g_s(cell) of a class of a robot with two coordinates on a raster over `axes`; angles wrap round.
+/// Draws the images g_s(cell) of a class of a robot with two coordinates on a raster over `axes`; angles wrap
+/// round.
 ///
-/// Undecided cells are drawn where f64 finds a configuration of the class at a corner of a piece of them, and beneath the others.
+/// Undecided cells are drawn where f64 finds a configuration of the class at a corner of a piece of them, and
+/// beneath the others.
 pub fn image(
     sheet: &Sheet<'_>,
     sign: DetSign,

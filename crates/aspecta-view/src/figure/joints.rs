@@ -1,4 +1,5 @@
-//! Basic components (figure 14): the images of the basic regions in joint space, those that coincide in one colour.
+//! Basic components (figure 14): the images of the basic regions in joint space, those that coincide in one
+//! colour.
 
 use super::components::{JointSpace, Section};
 use super::legend::Legend;
@@ -14,7 +15,7 @@ use aspecta::domain::OUTSIDE;
 /// Width of a component's entry in the legend.
 const ENTRY: f64 = 230.0;
 
-/// What the thin lines are.
+/// The meaning of the thin lines.
 pub(super) const CHANGE: &str = "change of n, also at folded legs";
 /// Pixels over which a group of regions lies, but not which, in [`JointSpace::groups`].
 pub(super) const UNKNOWN: u32 = u32::MAX - 1;

@@ -9,7 +9,7 @@ const CLEAR: f64 = 15.0;
 /// Directions tried, from upper right on.
 const DIRECTIONS: usize = 16;
 
-/// What names should keep clear of, as points in pixels.
+/// The points, in pixels, that names should keep clear of.
 pub struct Labels {
     taken: Vec<[f64; 2]>,
 }

@@ -1,4 +1,4 @@
-//! What stands below pictures of regions: their colours and the lines.
+//! Legends of pictures of regions: their colours and the lines.
 
 use super::barrier::Kind;
 use super::cut::Cut;
@@ -13,7 +13,7 @@ const LISTED: usize = 48;
 
 /// A legend.
 pub(super) struct Legend<'a> {
-    /// What bounds the aspect.
+    /// The aspect that is drawn, with the surfaces that bound it.
     pub cut: &'a Cut<'a>,
     /// Colours and what they mean, set in columns.
     pub entries: Vec<(String, String)>,
@@ -25,7 +25,7 @@ pub(super) struct Legend<'a> {
     pub caption: &'static str,
     /// Before the names of the boundary's lines.
     pub of: &'static str,
-    /// What thin lines are, if there are any.
+    /// The meaning of thin lines, if there are any.
     pub thin: Option<&'static str>,
     /// Left edge.
     pub left: f64,

@@ -28,13 +28,14 @@ impl Grid {
     }
 }
 
-/// The curves f = 0, given the values of f at the nodes: polylines whose vertices are the zeros of f on the grid's
-/// edges, each found to the last bits of its coordinate. A closed curve repeats its first vertex.
+/// The curves f = 0, given the values of f at the nodes: polylines whose vertices are the zeros of f on the
+/// grid's edges, each found to the last bits of its coordinate. A closed curve repeats its first vertex.
 pub fn contours(grid: &Grid, values: &[f64], f: impl Fn([f64; 2]) -> f64) -> Vec<Vec<[f64; 2]>> {
     traced(grid, values, &f, |a, b| root(a, b, &f))
 }
 
-/// The edges of a set, given which nodes are in it; vertices are found by so many halvings of the grid's edges.
+/// The edges of a set, given which nodes are in it; vertices are found by so many halvings of the grid's
+/// edges.
 pub fn edges(
     grid: &Grid,
     nodes: &[bool],
@@ -54,7 +55,8 @@ pub fn edges(
     })
 }
 
-/// The polylines through the edges of the grid on which f changes sign, at the places that `zero` finds between two nodes.
+/// The polylines through the edges of the grid on which f changes sign, at the places that `zero` finds
+/// between two nodes.
 fn traced(
     grid: &Grid,
     values: &[f64],
@@ -125,8 +127,8 @@ pub fn chain<E: Copy + Eq + Hash>(segments: &[(E, E)]) -> Vec<Vec<E>> {
     chains
 }
 
-/// The zero of f between a and b, where f changes sign, to the last bits: two false-position steps, then a bisection,
-/// over and over.
+/// The zero of f between a and b, where f changes sign, to the last bits: two false-position steps, then a
+/// bisection, over and over.
 fn root(a: [f64; 2], b: [f64; 2], f: &impl Fn([f64; 2]) -> f64) -> [f64; 2] {
     let at = |t: f64| [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])];
     let (mut low, mut high) = ((0.0, f(a)), (1.0, f(b)));
@@ -147,8 +149,8 @@ fn root(a: [f64; 2], b: [f64; 2], f: &impl Fn([f64; 2]) -> f64) -> [f64; 2] {
     at(if low.1.abs() < high.1.abs() { low.0 } else { high.0 })
 }
 
-/// The point of the curve on the normal through the point `t` of the chord from a to b, if it is within a chord's
-/// length.
+/// The point of the curve on the normal through the point `t` of the chord from a to b, if it is within a
+/// chord's length.
 pub fn project(a: [f64; 2], b: [f64; 2], t: f64, f: &impl Fn([f64; 2]) -> f64) -> Option<[f64; 2]> {
     let chord = [b[0] - a[0], b[1] - a[1]];
     let foot = [a[0] + t * chord[0], a[1] + t * chord[1]];

@@ -1,5 +1,5 @@
-//! W- and Q-aspects of robots with two coordinates: figures 6, 7 and 9. Of slices with two free coordinates the same
-//! without Q, where they are surfaces.
+//! W- and Q-aspects of robots with two coordinates: figures 6, 7 and 9. Of slices with two free coordinates
+//! the same without Q, where they are surfaces.
 
 use super::axes::{Axis, Chart};
 use super::barrier::Kind;
@@ -43,7 +43,7 @@ pub fn figure_9(survey: &Survey<'_>) -> String {
     svg.finish()
 }
 
-/// One class: its W-aspects beside its Q-aspects.
+/// Returns one class: its W-aspects beside its Q-aspects.
 pub fn class(survey: &Survey<'_>, mode: WorkingMode, sign: DetSign) -> String {
     let layout = Layout::new(survey, 400.0);
     let size = layout.size(1);
@@ -79,7 +79,7 @@ fn open(id: &str, size: (f64, f64), title: &str, survey: &Survey<'_>) -> Svg {
 struct Layout {
     w: Chart,
     q: Option<Chart>,
-    /// Where the first row begins.
+    /// The top of the first row.
     top: f64,
     /// Pixels left of a plot.
     left: f64,
@@ -177,8 +177,8 @@ pub(crate) fn fill<T: Copy + Ord, C: Display>(
     svg.close();
 }
 
-/// Curves, within the plot; `turns` names the coordinates in which they wrap round. Unwound lines are drawn once for
-/// each turn that brings a part of them into the plot.
+/// Curves, within the plot; `turns` names the coordinates in which they wrap round. Unwound lines are drawn
+/// once for each turn that brings a part of them into the plot.
 pub(crate) fn draw_lines(svg: &mut Svg, chart: &Chart, lines: &Lines, turns: [bool; 2]) {
     chart.clip(svg);
     for kind in [Kind::Limit, Kind::Serial, Kind::Parallel] {
@@ -281,7 +281,7 @@ pub(super) fn styled_line(svg: &mut Svg, at: [f64; 2], style: &str, text: &str) 
     at[0] + sample_width(text)
 }
 
-/// From a sample line to the next, if this text stands at it.
+/// Returns the distance from a sample line to the next, if this text stands at it.
 pub(super) fn sample_width(text: &str) -> f64 {
     48.0 + 5.6 * text.chars().count() as f64
 }
@@ -303,8 +303,8 @@ fn overlay<'a>(rasters: impl Iterator<Item = &'a Raster<Label>> + Clone) -> Opti
     }))
 }
 
-/// Figures 6 and 7: the aspects of Definition 5 (det A of one sign, all modes together) in W and in Q. The shade
-/// counts the configurations over a place.
+/// Figures 6 and 7: the aspects of Definition 5 (det A of one sign, all modes together) in W and in Q. The
+/// shade counts the configurations over a place.
 pub fn parallel_aspects(survey: &Survey<'_>) -> String {
     let rows = [DetSign::Positive, DetSign::Negative].map(|s| (sign_text(s).to_owned(), Some(s), None));
     overlaid(survey, "parallel-aspects", "Parallel aspects (Definition 5)", &rows)

@@ -17,7 +17,7 @@ pub const BELOW: f64 = 44.0;
 const PAPER: &str = "stroke:#aaa;stroke-width:0.8;fill:#fff;fill-opacity:0.55";
 const TICK: &str = "fill:none;stroke:#222;stroke-width:0.8";
 
-/// Where things are seen.
+/// The oblique projection of the sheets.
 pub struct View {
     /// A sheet as it is, its upper left corner at the origin.
     pub chart: Chart,
@@ -48,7 +48,7 @@ impl View {
         LEFT + self.chart.width + ASIDE * self.chart.height + 24.0
     }
 
-    /// Where a pixel of a sheet is seen; sheet 0 is the floor.
+    /// Returns the place in the picture of a pixel of a sheet; sheet 0 is the floor.
     pub fn at(&self, [x, y]: [f64; 2], sheet: usize) -> [f64; 2] {
         let depth = self.chart.height - y;
         [LEFT + x + ASIDE * depth, self.bottom - sheet as f64 * self.gap() - UP * depth]

@@ -15,10 +15,10 @@ pub const UNDECIDED: &str = "#9b9b9b";
 /// Basic regions without a twin: one direct solution in the aspect.
 pub const SINGLE: &str = "#e3ddc9";
 
-/// What a figure is not about.
+/// The colour of the background that a figure is not about.
 pub const PALE: &str = "#f3f3f3";
 
-/// Where a path fails.
+/// The colour of the place where a path fails.
 pub const OBSTACLE: &str = "#c1121f";
 
 /// The style of lines of the characteristic surface.
@@ -57,7 +57,8 @@ pub fn channels(colour: &str) -> [u8; 3] {
     [1, 3, 5].map(|at| u8::from_str_radix(&colour[at..at + 2], 16).unwrap_or_default())
 }
 
-/// The colour of a face of an aspect: parallel singularities red, serial ones blue to green, limits yellow to purple.
+/// The colour of a face of an aspect: parallel singularities red, serial ones blue to green, limits yellow to
+/// purple.
 pub fn face(face: Face) -> &'static str {
     const SERIAL: [&str; 6] = ["#0072b2", "#009e73", "#56b4e9", "#332288", "#44aa99", "#999933"];
     const LIMITS: [&str; 4] = ["#e69f00", "#cc79a7", "#f0e442", "#882255"];

@@ -1,4 +1,4 @@
-//! What the colours of a drawn robot mean.
+//! The meaning of the colours of a drawn robot.
 
 use super::svg::{Anchor, Svg};
 use aspecta::legs::{Kind, Part, Role};
@@ -71,7 +71,7 @@ fn lines(entries: &[Entry], room: f64) -> Vec<Vec<Entry>> {
     lines
 }
 
-/// From an entry to the next.
+/// Returns the distance from an entry to the next.
 fn width(text: &str) -> f64 {
     44.0 + 5.8 * text.len() as f64
 }

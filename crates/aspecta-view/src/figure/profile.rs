@@ -1,4 +1,5 @@
-//! Figure 11: det A and the B_jj along a path. The curves are *numerical*; the obstacle is what intervals found.
+//! Figure 11: det A and the B_jj along a path. The curves are *numerical*; the obstacle is what intervals
+//! found.
 
 use super::axes::{Axis, Chart};
 use super::maps::{styled_line, swatch};
@@ -30,13 +31,13 @@ pub fn figure_11(robot: &Robot, check: &PathCheck, points: usize) -> String {
     plot.draw(&title).0.finish()
 }
 
-/// What figure 11 shows.
+/// The data shown by figure 11.
 pub(crate) struct Plot<'a> {
     /// The robot.
     pub robot: &'a Robot,
     /// The samples in stretches without a gap.
     pub runs: &'a [&'a [ProfilePoint]],
-    /// Where the path fails.
+    /// The place where the path fails.
     pub obstacle: Option<&'a Obstacle>,
     /// The points of the whole path.
     pub points: usize,
@@ -102,7 +103,7 @@ impl Plot<'_> {
     }
 }
 
-/// What fails at an obstacle, in words.
+/// Returns a description of what fails at an obstacle.
 pub fn failure(robot: &Robot, obstacle: &Obstacle) -> String {
     let what = match obstacle.constraint.kind() {
         Kind::Parallel if obstacle.asked == Asked::Margin => "|det Â| falls below its margin".to_owned(),
@@ -116,14 +117,14 @@ pub fn failure(robot: &Robot, obstacle: &Obstacle) -> String {
     if obstacle.proved { what } else { format!("not excluded: {what}") }
 }
 
-/// Where a sample is along the path.
+/// Returns the position of a sample along the path.
 pub(crate) fn along(p: &ProfilePoint) -> f64 {
     p.segment as f64 + p.t
 }
 
 /// One of the determinants.
 pub(crate) struct Curve {
-    /// As it is written.
+    /// The name as it is written.
     pub name: String,
     /// Of its line.
     style: String,
@@ -162,7 +163,8 @@ pub(crate) fn runs(profile: &[ProfilePoint]) -> impl Iterator<Item = &[ProfilePo
     profile.chunk_by(move |a, b| along(b) - along(a) < 1.5 * step)
 }
 
-/// A thin line at every point of the path, and the names of the last and of as many others as there is room for.
+/// A thin line at every point of the path, and the names of the last and of as many others as there is room
+/// for.
 fn mark_points(svg: &mut Svg, chart: &Chart, last: usize) {
     let between = chart.width / (last - 1) as f64;
     let every = (LABEL / between).ceil() as usize;

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// What is known of a place with respect to one class of aspects.
+/// The label of a place with respect to one class of aspects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Label {
     /// Certainly in no aspect of the class.
@@ -63,7 +63,8 @@ impl<T: Copy + PartialEq> Raster<T> {
         all
     }
 
-    /// The largest square of pixels with each label: the labels in order, each with the square's lower left (column, row) and its side.
+    /// The largest square of pixels with each label: the labels in order, each with the square's lower left
+    /// (column, row) and its side.
     pub fn squares(&self) -> Vec<(T, (usize, usize), usize)>
     where
         T: Ord,
@@ -90,14 +91,15 @@ impl<T: Copy + PartialEq> Raster<T> {
         largest.into_iter().map(|(label, (corner, side))| (label, corner, side)).collect()
     }
 
-    /// The outline of all pixels with `label` as an SVG path in lattice units, counter-clockwise outside, so that it
-    /// can be filled without seams.
+    /// The outline of all pixels with `label` as an SVG path in lattice units, counter-clockwise outside, so
+    /// that it can be filled without seams.
     pub fn outline(&self, label: T) -> String {
         let is = |x: i32, y: i32| {
             let inside = (0..self.columns as i32).contains(&x) && (0..self.rows as i32).contains(&y);
             inside && self.at(x as usize, y as usize) == label
         };
-        // The pixels to the left and to the right of the edge that leaves (x, y) in direction 0..4 = +x, +y, −x, −y.
+        // The pixels to the left and to the right of the edge that leaves (x, y) in direction 0..4 = +x, +y,
+        // −x, −y.
         let is_edge = |x: i32, y: i32, direction: usize| {
             let (left, right) = match direction {
                 0 => ((x, y), (x, y - 1)),

@@ -1,4 +1,5 @@
-//! Basic regions and uniqueness domains (figures 12 to 15): one map of a robot with two coordinates, slices of one with three.
+//! Basic regions and uniqueness domains (figures 12 to 15): one map of a robot with two coordinates, slices
+//! of one with three.
 //!
 //! *Numerical*: colours are true to a cell of the grid, lines to the mesh they are cut from.
 
@@ -40,7 +41,8 @@ pub fn regions(cut: &Cut<'_>) -> String {
     sheet(cut, "regions", "Basic regions", &colours, &|_| true)
 }
 
-/// The largest uniqueness domain of an aspect: its regions in their colours, the others pale. Without any, all are.
+/// The largest uniqueness domain of an aspect: its regions in their colours, the others pale. Without any,
+/// all are.
 pub fn uniqueness(cut: &Cut<'_>) -> String {
     let largest = cut.domains.uniqueness.first().map_or(&[][..], |domain| &domain.regions);
     let mut colours = colours(cut.domains);
@@ -123,7 +125,7 @@ fn sheet(
     svg.finish()
 }
 
-/// What a picture shows, and of which aspect.
+/// Returns the heading of a picture: what it shows, and of which aspect.
 pub(super) fn heading(what: &str, domains: &Domains) -> String {
     let mode = signs(&domains.mode.to_string());
     format!("{what} of aspect {}: mode ({mode}), {}", domains.aspect, sign_text(domains.det_a))

@@ -114,7 +114,7 @@ impl View {
         Self { chart, project, flat, sphere }
     }
 
-    /// Where a point is seen.
+    /// Returns the place of a point in the picture.
     pub fn at(&self, p: Point) -> [f64; 2] {
         self.chart.at([dot(self.project[0], p), dot(self.project[1], p)])
     }
@@ -165,7 +165,7 @@ pub(super) struct Drawing<'a> {
 }
 
 impl Drawing<'_> {
-    /// All but the names of points. Of one robot the same shapes in every configuration.
+    /// Returns all but the names of points. Of one robot the same shapes in every configuration.
     pub fn shapes(&self) -> Shapes {
         let mut shapes = Shapes::default();
         let svg = &mut shapes;

@@ -15,9 +15,10 @@ use std::f64::consts::PI;
 pub struct Mesh<'a> {
     /// Poses or joint vectors of two or three coordinates.
     pub vertices: Vec<&'a [f64]>,
-    /// What joins them.
+    /// The simplices that join them.
     pub simplices: &'a [Simplex],
-    /// Which of the first two coordinates are angles that close up on themselves: lines then go the short way round and are unwound.
+    /// Which of the first two coordinates are angles that close up on themselves: lines then go the short way
+    /// round and are unwound.
     pub turns: [bool; 2],
 }
 
@@ -39,7 +40,7 @@ impl<'a> Mesh<'a> {
     }
 }
 
-/// How lines at a face are drawn: cuts of the window as limits.
+/// Returns how lines at a face are drawn: cuts of the window as limits.
 pub fn kind(face: Face) -> Kind {
     match face {
         Face::Of(constraint) => match constraint.kind() {
@@ -52,7 +53,8 @@ pub fn kind(face: Face) -> Kind {
 }
 
 impl Mesh<'_> {
-    /// The segments of the simplices at a kind of face, or the segments in which these triangles meet a plane, as polylines.
+    /// The segments of the simplices at a kind of face, or the segments in which these triangles meet a
+    /// plane, as polylines.
     pub fn lines(&self, of: Kind, plane: Option<Plane>) -> Vec<Vec<[f64; 2]>> {
         let of_kind = self.simplices.iter().filter(|s| kind(s.face) == of);
         let Some(plane) = plane else {
@@ -107,7 +109,7 @@ impl Mesh<'_> {
 }
 
 impl Plane {
-    /// How far above it a pose is; within half a turn, if turns do not count.
+    /// Returns how far above it a pose is; within half a turn, if turns do not count.
     fn height(self, pose: &[f64]) -> f64 {
         let height = pose[2] - self.at;
         if self.glued { without_turns(height) } else { height }

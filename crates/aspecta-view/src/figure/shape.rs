@@ -5,15 +5,15 @@ use super::svg::{Anchor, Svg};
 /// Something drawn. Lengths in CSS pixels, y downward.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shape {
-    /// What is drawn where: the corners, the centre, or the middle of a text's baseline.
+    /// The points that place the shape: the corners, the centre, or the middle of a text's baseline.
     pub points: Vec<[f64; 2]>,
-    /// What it is.
+    /// The kind of shape.
     pub kind: Kind,
     /// Its style.
     pub style: String,
 }
 
-/// What a [`Shape`] is.
+/// The kind of a [`Shape`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum Kind {
     /// A polyline.

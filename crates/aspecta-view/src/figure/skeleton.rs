@@ -1,4 +1,4 @@
-//! Where the parts of a robot are in a configuration.
+//! The positions of a robot's parts in a configuration.
 
 use aspecta::kinematics::placement::Placement;
 use aspecta::legs::Points;
@@ -21,7 +21,7 @@ pub struct Skeleton {
     pub size: f64,
 }
 
-/// Where the joints of a leg are.
+/// The positions of a leg's joints.
 pub type LegShape = Points<f64, 3>;
 
 impl Skeleton {
@@ -41,7 +41,7 @@ impl Skeleton {
         skeleton
     }
 
-    /// All named points.
+    /// Returns all named points.
     pub fn points(&self) -> impl Iterator<Item = Point> {
         let leg = |l: &LegShape| {
             [Some(l.a), l.b, Some(l.c)].into_iter().chain(l.rail.into_iter().flatten().map(Some))

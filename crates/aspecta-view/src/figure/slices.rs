@@ -34,7 +34,8 @@ pub struct ModeCells<'a> {
     pub classes: &'a [(&'a AspectClass, &'a [Cell])],
 }
 
-/// Slices of a mode's W-aspects across the third coordinate that varies, both signs of det A together, with singular curves.
+/// Slices of a mode's W-aspects across the third coordinate that varies, both signs of det A together, with
+/// singular curves.
 ///
 /// `sides` are the numbers of finest cells along the axes.
 pub fn slices(robot: &Robot, window: &Window, sides: [usize; 3], mode: &ModeCells<'_>) -> String {
@@ -69,7 +70,7 @@ pub fn slices(robot: &Robot, window: &Window, sides: [usize; 3], mode: &ModeCell
     svg.finish()
 }
 
-/// Where across a coordinate a slice is: `φ = 0.5 rad`.
+/// Returns the place of a slice, such as `φ = 0.5 rad`.
 pub(crate) fn place(robot: &Robot, coordinate: usize, at: f64) -> String {
     let coordinate = robot.platform.coordinates()[coordinate];
     let unit = if coordinate.angle { "rad" } else { &robot.length_unit };
@@ -92,7 +93,7 @@ impl Panels {
         Self { left: shape.margin().max(48.0), shape, columns, top }
     }
 
-    /// From one plot to the next, across and down.
+    /// Returns the distances from one plot to the next, across and down.
     fn step(&self) -> (f64, f64) {
         (self.left + self.shape.width + 8.0, 26.0 + self.shape.height + 40.0)
     }
@@ -112,7 +113,8 @@ impl Panels {
     }
 }
 
-/// Where the mode's cells lie across the third coordinate, within the window: elsewhere slices would show nothing.
+/// Returns the range of the third coordinate that the mode's cells cover within the window: elsewhere slices
+/// would be empty.
 fn extent(mode: &ModeCells<'_>, window: (f64, f64)) -> (f64, f64) {
     let cells = mode.classes.iter().flat_map(|(_, cells)| cells.iter());
     let hull =
@@ -121,7 +123,7 @@ fn extent(mode: &ModeCells<'_>, window: (f64, f64)) -> (f64, f64) {
     if range.0 < range.1 { range } else { window }
 }
 
-/// What the mode's classes say of the plane `at`: an aspect where either has one.
+/// Labels the plane `at` by the mode's classes: an aspect where either has one.
 fn slice(mode: &ModeCells<'_>, axes: &[Axis; 2], size: [usize; 2], at: f64) -> Raster<Label> {
     let rasters: Vec<_> = mode.classes.iter().map(|(_, cells)| cut(cells, axes, size, at)).collect();
     Raster::from_fn(size[0], size[1], |c, r| {
@@ -129,7 +131,7 @@ fn slice(mode: &ModeCells<'_>, axes: &[Axis; 2], size: [usize; 2], at: f64) -> R
     })
 }
 
-/// What the cells of a class say of the plane `at` across the third coordinate.
+/// Labels the plane in which the third coordinate is `at` by the cells of a class.
 pub(crate) fn cut(cells: &[Cell], axes: &[Axis; 2], size: [usize; 2], at: f64) -> Raster<Label> {
     let cut: Vec<Cell> = cells.iter().filter(|c| c.lo[2] <= at && at < c.hi[2]).copied().collect();
     cell_raster(&cut, axes, [0, 1], size)

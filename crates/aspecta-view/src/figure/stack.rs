@@ -1,7 +1,8 @@
-//! The stack of sheets (figures 14 and 15): an aspect seen over joint space, region by region, in an oblique view.
+//! The stack of sheets (figures 14 and 15): an aspect seen over joint space, region by region, in an oblique
+//! view.
 //!
-//! Sheet 1 holds the regions of the largest uniqueness domain, every other region lies in the lowest sheet where no image meets its own:
-//! so as many sheets lie over a joint vector as it has direct solutions.
+//! Sheet 1 holds the regions of the largest uniqueness domain, every other region lies in the lowest sheet
+//! where no image meets its own: so as many sheets lie over a joint vector as it has direct solutions.
 
 use super::axes::{Axis, Chart};
 use super::barrier::Kind;
@@ -42,7 +43,8 @@ fn sheets(domains: &Domains) -> Vec<usize> {
     sheet.into_iter().flatten().collect()
 }
 
-/// The stack of an aspect's sheets over its joint space or, of three joints, over the plane of joint vectors in which most regions show.
+/// The stack of an aspect's sheets over its joint space or, of three joints, over the plane of joint vectors
+/// in which most regions show.
 pub fn stack(space: &JointSpace<'_>) -> String {
     let domains = space.cut.domains;
     let at = fullest(space);
@@ -85,8 +87,8 @@ pub fn stack(space: &JointSpace<'_>) -> String {
     svg.finish()
 }
 
-/// Where to hold the held joint: many regions with several solutions show, and large; if none has several, many regions. Only joint vectors
-/// count all of whose solutions lie in known regions.
+/// Returns the value of the fixed joint that shows many and large regions with several solutions, or many
+/// regions if none has several. Only joint vectors count all of whose solutions lie in known regions.
 fn fullest(space: &JointSpace<'_>) -> f64 {
     let richness = |at: f64| {
         let section = space.section(at, COARSE);
@@ -108,8 +110,8 @@ fn covered(space: &JointSpace<'_>, section: &Section) -> Vec<usize> {
     (0..pixels.len()).filter(|&region| pixels[region] as f64 >= least).collect()
 }
 
-/// Places of a sheet, in pixels, each with the regions over it if all are known: most solutions first. No two stand above each other in
-/// the picture.
+/// Places of a sheet, in pixels, each with the regions over it if all are known: most solutions first. No two
+/// stand above each other in the picture.
 fn verticals(space: &JointSpace<'_>, section: &Section, view: &View, shown: &[usize]) -> Vec<Vertical> {
     let groups = space.groups(section);
     let pixels = groups.size().0 as f64;
@@ -142,7 +144,7 @@ fn verticals(space: &JointSpace<'_>, section: &Section, view: &View, shown: &[us
 /// A place, and the regions (from 0) over it.
 type Vertical = ([f64; 2], Vec<usize>);
 
-/// All that is drawn.
+/// The picture of the stack, with the data it is drawn from.
 struct Stack<'a> {
     space: &'a JointSpace<'a>,
     view: View,
@@ -196,7 +198,7 @@ impl Stack<'_> {
         svg.text([LEFT - 10.0, y + 4.0], Anchor::End, 11.0, "font-weight:600", &format!("sheet {sheet}"));
     }
 
-    /// Of the verticals that go on, the parts from sheet `from` to the next.
+    /// Draws the parts from sheet `from` to the next of the verticals that go on.
     fn rise(&self, svg: &mut Svg, from: usize) {
         let goes_on = |regions: &[usize]| self.sheets[from..].iter().flatten().any(|r| regions.contains(r));
         for (at, _) in self.verticals.iter().filter(|(_, regions)| goes_on(regions)) {
@@ -222,7 +224,7 @@ impl Stack<'_> {
 
 /// The lines in the plane shown.
 struct Lines {
-    /// Where the number of solutions changes.
+    /// The curves on which the number of solutions changes.
     changes: Vec<Vec<[f64; 2]>>,
     /// The image of the boundary.
     boundary: super::survey::Lines,

@@ -18,8 +18,8 @@ const STEP: f64 = 20.0;
 /// Least length of a coloured part, so that none is overlooked.
 const LEAST: f64 = 1.0;
 
-/// The aspects of every class along the one coordinate that varies. Certified but for parts shorter than a pixel, which are
-/// drawn a pixel long, undecided ones above the others.
+/// The aspects of every class along the one coordinate that varies. Certified but for parts shorter than a
+/// pixel, which are drawn a pixel long, undecided ones above the others.
 pub fn strips(analysis: &Analysis, cells: &[Vec<Cell>]) -> String {
     let axis = analysis.window.axes()[0];
     let height = STEP * analysis.classes.len() as f64;

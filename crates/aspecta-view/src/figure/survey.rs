@@ -1,4 +1,4 @@
-//! What the maps of a robot with two free coordinates show, computed once and drawn by several figures.
+//! The data of maps of a robot with two free coordinates, computed once and drawn by several figures.
 
 use super::axes::Axis;
 use super::barrier::Kind;
@@ -22,7 +22,7 @@ const PIXELS: usize = 768;
 pub struct Survey<'a> {
     /// The robot.
     pub robot: &'a Robot,
-    /// What is held: [`slice_name`].
+    /// The fixed coordinates, as [`slice_name`] writes them.
     pub slice: Option<String>,
     /// The coordinates that vary.
     pub axes: [usize; 2],
@@ -62,8 +62,8 @@ pub struct ModeCurves {
 }
 
 impl<'a> Survey<'a> {
-    /// Maps of all classes; two coordinates must vary. `cells[k]` are the cells of class k and `side` is the number of finest cells
-    /// along an axis.
+    /// Maps of all classes; two coordinates must vary. `cells[k]` are the cells of class k and `side` is the
+    /// number of finest cells along an axis.
     pub fn new(analysis: &'a Analysis, cells: &[Vec<Cell>], side: usize) -> Self {
         let (robot, window, classes) = (&analysis.robot, &analysis.window, &analysis.classes);
         let varying = window.axes();
@@ -150,8 +150,8 @@ pub fn joint_axis(robot: &Robot, k: usize, range: (f64, f64)) -> Axis {
     Axis { label: format!("q{} [{unit}]", super::robot::subscript(k + 1)), range, angle }
 }
 
-/// Cells as pixels over a plane of poses. Where cells are smaller than a pixel, undecided ones come first and inner
-/// ones before what is outside: nothing is lost, and no boundary moves by more than a pixel.
+/// Cells as pixels over a plane of poses. Where cells are smaller than a pixel, undecided ones come first and
+/// inner ones before what is outside: nothing is lost, and no boundary moves by more than a pixel.
 pub fn cell_raster(cells: &[Cell], axes: &[Axis; 2], which: [usize; 2], size: [usize; 2]) -> Raster<Label> {
     let mut raster = Raster::filled(size[0], size[1], Label::Outside);
     let inner = cells.iter().filter(|c| c.aspect.is_some());

@@ -16,7 +16,7 @@ pub struct Svg {
     clips: usize,
 }
 
-/// Where a text stands relative to its point.
+/// The placement of a text relative to its point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Anchor {
     /// The text begins at the point.

@@ -14,11 +14,12 @@ const SIDE: f64 = 2.0;
 /// How much the boundary hides of what is in it.
 const OPACITY: f64 = 0.3;
 
-/// Both surfaces of an aspect as nodes `boundary` and `characteristic` of one root, with a mesh primitive and a material for each face. The
-/// boundary is translucent.
+/// Both surfaces of an aspect as nodes `boundary` and `characteristic` of one root, with a mesh primitive and
+/// a material for each face. The boundary is translucent.
 ///
-/// Positions are poses, in single precision. The root turns the third coordinate upward and scales: lengths alike, and a third
-/// coordinate that is an angle so that its range is the longest side of the rest. Its `extras` say so, with names and units.
+/// Positions are poses, in single precision. The root turns the third coordinate upward and scales: lengths
+/// alike, and a third coordinate that is an angle so that its range is the longest side of the rest. Its
+/// `extras` say so, with names and units.
 pub fn glb(all: &Surfaces) -> Vec<u8> {
     let mut file = File::default();
     let nodes: Vec<Value> = all.surfaces.iter().filter_map(|surface| file.node(all, surface)).collect();
@@ -66,7 +67,7 @@ fn root(all: &Surfaces, children: &[usize]) -> Value {
     })
 }
 
-/// What has been put into the file.
+/// The parts of the file so far.
 #[derive(Default)]
 struct File {
     bytes: Vec<u8>,

@@ -18,7 +18,7 @@ use std::f64::consts::{PI, TAU};
 pub struct Surfaces {
     /// The robot's name.
     pub robot: String,
-    /// What they belong to, such as `aspect 1, mode +++, det A +`.
+    /// The aspect they belong to, such as `aspect 1, mode +++, det A +`.
     pub aspect: String,
     /// The pose's coordinates with their units, such as `x [mm]`.
     pub coordinates: [String; 3],
@@ -35,14 +35,14 @@ pub struct Surfaces {
 pub struct Surface {
     /// `boundary` or `characteristic`.
     pub name: &'static str,
-    /// Poses. Across the ends of a coordinate that closes up on itself, triangles have copies of their vertices a full turn further,
-    /// so that they hang together; copies come last.
+    /// Poses. Across the ends of a coordinate that closes up on itself, triangles have copies of their
+    /// vertices a full turn further, so that they hang together; copies come last.
     pub vertices: Vec<[f64; 3]>,
     /// Indices of their vertices.
     pub triangles: Vec<[u32; 3]>,
     /// Per triangle, which of [`Surfaces::faces`] it is or, in the characteristic surface, comes from.
     pub face: Vec<u8>,
-    /// What is known of each vertex.
+    /// The data of each vertex.
     pub data: Vec<Data>,
 }
 
@@ -154,7 +154,7 @@ fn triple(numbers: &[f64]) -> [f64; 3] {
     std::array::from_fn(|k| numbers[k])
 }
 
-/// What a face is, for people.
+/// Returns the name of a face, for people.
 pub fn name(face: Face) -> String {
     match face {
         Face::Of(constraint) => match constraint.kind() {

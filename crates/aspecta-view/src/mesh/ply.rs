@@ -3,8 +3,8 @@
 use super::{Surface, Surfaces, name};
 use std::fmt::Write;
 
-/// One surface of an aspect: binary, little-endian. The property `face` of a triangle counts [`Surfaces::faces`] from 0; comments of
-/// the header say what they are.
+/// Returns one surface of an aspect: binary, little-endian. The property `face` of a triangle counts
+/// [`Surfaces::faces`] from 0; comments of the header say what they are.
 pub fn ply(all: &Surfaces, surface: &Surface) -> Vec<u8> {
     let mut file = header(all, surface).into_bytes();
     file.extend(surface.vertices.iter().flatten().flat_map(|x| x.to_le_bytes()));

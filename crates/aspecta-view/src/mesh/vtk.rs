@@ -6,8 +6,9 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use std::fmt::Write;
 
-/// One surface of an aspect: points are poses, in double precision. Each has its joint vector `q`; of the characteristic surface also
-/// `source`, the pose on the boundary with the same joint vector. Cells have `face`, which counts the names in the field data.
+/// Returns one surface of an aspect: points are poses, in double precision. Each has its joint vector `q`; of
+/// the characteristic surface also `source`, the pose on the boundary with the same joint vector. Cells have
+/// `face`, which counts the names in the field data.
 pub fn vtp(all: &Surfaces, surface: &Surface) -> String {
     let (points, cells) = (surface.vertices.len(), surface.triangles.len());
     let mut body = String::new();

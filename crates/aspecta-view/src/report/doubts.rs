@@ -1,4 +1,4 @@
-//! Where the bounds on the number of aspects are apart, and why.
+//! The section of the report on where the bounds on the number of aspects are apart, and why.
 
 use super::tables::{mode_name, sign};
 use crate::doubt::{Coordinate, largest_first, place, reasons};

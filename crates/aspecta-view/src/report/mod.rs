@@ -115,7 +115,7 @@ fn mode_slices(analysis: &Analysis, cells: &[Vec<Cell>]) -> Vec<Figure> {
     analysis.modes.par_iter().map(figure).collect()
 }
 
-/// How many finest cells there are along a coordinate that varies.
+/// Returns how many finest cells there are along a coordinate that varies.
 fn side(analysis: &Analysis, axis: usize) -> usize {
     let (lo, hi) = analysis.window.ranges[axis];
     (((hi - lo) / analysis.run.resolution[axis]).round() as usize).max(1)

@@ -85,7 +85,8 @@ fn reachable(r: Reachable) -> &'static str {
     }
 }
 
-/// Table 2: the numbers of generalized aspects, in the paper's order: all modes with det A > 0, then all with det A < 0.
+/// Table 2: the numbers of generalized aspects, in the paper's order: all modes with det A > 0, then all with
+/// det A < 0.
 pub fn classes(analysis: &Analysis) -> Markup {
     let n = analysis.robot.dof();
     let in_order = [DetSign::Positive, DetSign::Negative]
@@ -198,7 +199,7 @@ fn vector(v: &[f64]) -> String {
     format!("({})", v.iter().map(|&x| number(x)).collect::<Vec<_>>().join(", "))
 }
 
-/// One line a coordinate.
+/// Returns one line a coordinate.
 fn ranges(all: &[(f64, f64)], name: impl Fn(usize) -> String) -> Markup {
     html! { @for (k, r) in all.iter().enumerate() {
         span.range { (name(k)) ": " (number(r.0)) " … " (number(r.1)) }

@@ -151,7 +151,7 @@ fn analyze_here(robot: &Robot, options: &Options, control: &Control<'_>) -> Resu
     })
 }
 
-/// What one pass found of its modes.
+/// The findings of one pass over its modes.
 struct Pass {
     found: Vec<Found>,
     doubts: Vec<Doubt>,
@@ -217,8 +217,8 @@ impl Found {
             }
         }
         let mut labels = Vec::new();
-        let sight = |node: &Node| node.of_classes(class.bit);
-        paving.boxes_of(&sight, &mut |node| labels.push((node, label[node as usize])));
+        let classify = |node: &Node| node.of_classes(class.bit);
+        paving.boxes_of(&classify, &mut |node| labels.push((node, label[node as usize])));
         labels.sort_unstable();
         let undecided =
             labels.iter().filter(|l| l.1 == 0).map(|l| paving.measure(paving.depth_of(l.0))).sum();
@@ -282,10 +282,10 @@ fn number(found: Vec<Found>) -> (Vec<AspectClass>, Vec<Vec<(u32, u32)>>) {
 }
 
 fn mode_report(robot: &Robot, paving: &Paving, m: usize, mode: WorkingMode) -> ModeReport {
-    let sight = |node: &Node| node.of_mode(m);
+    let classify = |node: &Node| node.of_mode(m);
     let (mut best, mut open) = (None::<u32>, false);
-    paving.boxes_of(&sight, &mut |at| {
-        if sight(&paving.nodes[at as usize]) == Mark::Inside {
+    paving.boxes_of(&classify, &mut |at| {
+        if classify(&paving.nodes[at as usize]) == Mark::Inside {
             best = Some(best.map_or(at, |b| paving.larger(b, at)));
         } else {
             open = true;

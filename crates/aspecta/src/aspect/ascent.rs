@@ -1,7 +1,8 @@
 //! Merging pieces by certified ascent: from a small piece, climb U = log σ det A + Σ log h_j + Σ log c_k.
 //!
 //! U → −∞ at every boundary of S_{s,σ}, so a climb never leaves its aspect; each step is a segment proved by
-//! intervals to lie in S_{s,σ} ([`aspecta_kinematics::path::curve::along`]). Pieces that a climb meets are one aspect with the piece it began in.
+//! intervals to lie in S_{s,σ} ([`aspecta_kinematics::path::curve::along`]). Pieces that a climb meets are
+//! one aspect with the piece it began in.
 
 use super::components::{Components, UnionFind};
 use crate::paving::{ClassSet, Paving};
@@ -28,8 +29,9 @@ pub(super) struct Class {
     pub bit: ClassSet,
 }
 
-/// Which pieces are proved to be one: sets of piece numbers, and the paths that prove it. Climbs start from the pieces that
-/// are `worth` it, except the largest such piece of each component, which waits for the others. They climb in the chart of their largest box.
+/// Which pieces are proved to be one: sets of piece numbers, and the paths that prove it. Climbs start from
+/// the pieces that are `worth` it, except the largest such piece of each component, which waits for the
+/// others. They climb in the chart of their largest box.
 pub(super) fn merge(
     robot: &Robot,
     sheets: &[Paving],
@@ -82,7 +84,8 @@ struct Climb {
     path: Path,
 }
 
-/// The climb from piece `from`, which ends at a maximum of U, at piece `goal`, or where no step can be proved any more.
+/// The climb from piece `from`, which ends at a maximum of U, at piece `goal`, or where no step can be proved
+/// any more.
 fn climb<const D: usize, const N: usize>(
     robot: &Robot,
     sheets: &[Paving],
@@ -110,8 +113,8 @@ fn climb<const D: usize, const N: usize>(
     climb
 }
 
-/// Climbs from `start`, which must lie in the class, until `reached` says so of a pose, to a maximum of U, or to where no step can
-/// be proved any more.
+/// Climbs from `start`, which must lie in the class, until `reached` says so of a pose, to a maximum of U, or
+/// to where no step can be proved any more.
 pub(super) fn ascend<const D: usize, const N: usize>(
     robot: &Robot,
     paving: &Paving,

@@ -32,7 +32,7 @@ pub(super) struct Limits<'a> {
     pub control: &'a Control<'a>,
 }
 
-/// What [`Atlas::even_out`] did.
+/// The result of [`Atlas::even_out`].
 pub(super) struct Even {
     /// Whether anything was split.
     pub changed: bool,
@@ -41,7 +41,7 @@ pub(super) struct Even {
 }
 
 impl Limits<'_> {
-    /// How many boxes may still be split.
+    /// Returns how many boxes may still be split.
     pub(super) fn affordable(&self, atlas: &Atlas<'_>) -> usize {
         (self.boxes.saturating_sub(atlas.boxes()) >> atlas.sheets[0].axes.len()) as usize
     }
@@ -64,20 +64,21 @@ impl Limits<'_> {
     }
 }
 
-/// The pavings of all charts. Sheet 0 is in pose coordinates; sheet i + 1 is that of chart i and replaces the boxes of
-/// sheet 0 that it covers. If the first chart holds all configurations it replaces them all, and the others replace what they cover of it: it is the
-/// base.
+/// The pavings of all charts. Sheet 0 is in pose coordinates; sheet i + 1 is that of chart i and replaces the
+/// boxes of sheet 0 that it covers. If the first chart holds all configurations it replaces them all, and the
+/// others replace what they cover of it: it is the base.
 pub(super) struct Atlas<'a> {
     pub robot: &'a Robot,
-    /// Those of the sheets from 1 on.
+    /// The charts of the sheets from 1 on.
     pub charts: Vec<Chart>,
     pub sheets: Vec<Paving>,
     pub scale: Scale,
 }
 
 impl<'a> Atlas<'a> {
-    /// Sheet 0 paved evenly, the others not at all: coarsely, to be refined where the search needs it, or, if a chart replaces all its boxes,
-    /// as finely as measures, pictures and plans want it, for up to half of the boxes.
+    /// Sheet 0 paved evenly, the others not at all: coarsely, to be refined where the search needs it, or, if
+    /// a chart replaces all its boxes, as finely as measures, pictures and plans want it, for up to half of
+    /// the boxes.
     pub(super) fn new(
         robot: &'a Robot,
         window: &Window,
@@ -96,13 +97,14 @@ impl<'a> Atlas<'a> {
         Self { scale: scale::typical(robot, window, modes), robot, charts, sheets }
     }
 
-    /// Classes of which nothing is settled in a box: it is neither inside nor outside, and might hide a whole aspect.
+    /// Classes of which nothing is settled in a box: it is neither inside nor outside, and might hide a whole
+    /// aspect.
     pub(super) fn open(&self, (sheet, node): Leaf) -> ClassSet {
         let node = &self.sheets[sheet].nodes[node as usize];
         if node.covered || node.first_child != 0 { 0 } else { node.undecided & !node.summitless }
     }
 
-    /// All leaves in which something is undecided.
+    /// Returns all leaves in which something is undecided.
     pub(super) fn undecided_leaves(&self) -> Vec<Leaf> {
         let all =
             self.sheets.iter().enumerate().flat_map(|(s, p)| (0..p.nodes.len() as u32).map(move |n| (s, n)));
@@ -134,7 +136,8 @@ impl<'a> Atlas<'a> {
         (base, &self.charts[base..])
     }
 
-    /// Whether one of the charts surely holds a box of the base on which all legs close; it is cut up where that helps.
+    /// Whether one of the charts surely holds a box of the base on which all legs close; it is cut up where
+    /// that helps.
     pub(super) fn is_within_a_chart(&self, (sheet, node): Leaf) -> bool {
         let (base, charts) = self.base();
         let paving = &self.sheets[base];
@@ -151,8 +154,9 @@ impl<'a> Atlas<'a> {
         boxes.iter().flat_map(children).filter(undecided).collect()
     }
 
-    /// Whether the box belongs to a later sheet than the base, or its centre surely lies in no other chart: a set of configurations that holds it
-    /// has a point that no other boxes than those of its component of G⁺ can cover.
+    /// Whether the box belongs to a later sheet than the base, or its centre surely lies in no other chart: a
+    /// set of configurations that holds it has a point that no other boxes than those of its component of G⁺
+    /// can cover.
     pub(super) fn is_anchor(&self, (sheet, node): Leaf) -> bool {
         let (base, charts) = self.base();
         if sheet > base || charts.is_empty() {
@@ -174,8 +178,8 @@ impl<'a> Atlas<'a> {
         self.sheets[sheet].depth_of(node)
     }
 
-    /// Splits and searches boxes until no aspect can hide in any or they are as small as they may be; `fresh` are the leaves not
-    /// searched yet. False if boxes or time ended it.
+    /// Splits and searches boxes until no aspect can hide in any or they are as small as they may be; `fresh`
+    /// are the leaves not searched yet. False if boxes or time ended it.
     pub(super) fn uncover(&mut self, mut fresh: Vec<Leaf>, limits: &Limits<'_>) -> bool {
         loop {
             let worth = self.is_worth_searching(&fresh);
@@ -225,8 +229,8 @@ impl<'a> Atlas<'a> {
         }
     }
 
-    /// Whether enough leaves have no summit to make a search worth its time, judged by a sample; if not, it is better to
-    /// split them all first.
+    /// Whether enough leaves have no summit to make a search worth its time, judged by a sample; if not, it
+    /// is better to split them all first.
     fn is_worth_searching(&self, leaves: &[Leaf]) -> bool {
         const SAMPLE: usize = 512;
         if leaves.len() < 8 * SAMPLE {
@@ -269,7 +273,7 @@ impl<'a> Atlas<'a> {
         leaves.iter().copied().filter(|&leaf| self.open(leaf) != 0).collect()
     }
 
-    /// Of the classes asked of each box of a sheet, those that surely have no summit in it.
+    /// Returns, of the classes asked of each box of a sheet, those proved to have no summit in it.
     pub(super) fn summitless(&self, sheet: usize, asked: &[(u32, ClassSet)]) -> Vec<ClassSet> {
         let paving = &self.sheets[sheet];
         let (robot, scale) = (self.robot, &self.scale);

@@ -9,7 +9,7 @@ use aspecta_verify::certificate::{
     self, Certificate, Claim, Entry, FORMAT_VERSION, Join, Scale, Seam, Sheet, Tree,
 };
 
-/// All that the bounds rest on.
+/// Returns the certificate of all that the bounds rest on.
 pub(super) fn certificate(atlas: &Atlas<'_>, counted: &[(Class, Counted)]) -> Certificate {
     let claims = counted.iter().map(|(_, c)| Claim { low: c.low(), high: c.high() }).collect();
     let index = |class: &Class| class.bit.trailing_zeros() as usize;
@@ -27,7 +27,8 @@ pub(super) fn certificate(atlas: &Atlas<'_>, counted: &[(Class, Counted)]) -> Ce
     certify(atlas.robot, &atlas.scale, &atlas.sheets, joins.collect(), seams.collect(), claims)
 }
 
-/// What the pavings `sheets` (all with the same modes; the first in pose coordinates) and the lists prove of `robot`.
+/// Returns the certificate of what the pavings `sheets` (all with the same modes; the first in pose
+/// coordinates) and the lists prove of `robot`.
 pub fn certify(
     robot: &Robot,
     scale: &Scale,

@@ -42,16 +42,18 @@ pub(super) struct Piece {
 
 /// The boxes of a set of configurations and how they hang together.
 pub(super) struct Components {
-    /// The inside and undecided boxes of all sheets, ascending; those that a fold's chart covers only if they are inside.
+    /// The inside and undecided boxes of all sheets, ascending; those that a fold's chart covers only if they
+    /// are inside.
     pub boxes: Vec<Leaf>,
-    /// For each box its piece (component of G⁻), or `None` if undecided, or covered and connected to none that is not.
+    /// The piece of each box (component of G⁻), or `None` if undecided, or covered and connected to none
+    /// that is not.
     pub piece_of: Vec<Option<u32>>,
-    /// For each box its component of G⁺, named by the box index of its root; `None` for covered boxes.
+    /// The component of G⁺ of each box, named by the box index of its root; `None` for covered boxes.
     pub component_of: Vec<Option<u32>>,
     /// The pieces, in the order of their first box.
     pub pieces: Vec<Piece>,
-    /// Boxes of sheets from 1 on whose centres lie in a box of the sheet beneath, so that what touches the one and what touches the other are one
-    /// piece; no more than that takes.
+    /// Boxes of sheets from 1 on whose centres lie in a box of the sheet beneath, so that what touches the
+    /// one and what touches the other are one piece; no more than that takes.
     pub seams: Vec<Leaf>,
 }
 
@@ -59,25 +61,25 @@ impl Components {
     /// Components of a set of configurations, given over the sheets of an atlas (or one sheet alone).
     ///
     /// G⁺ joins inside and undecided boxes that share a point; G⁻ joins inside boxes that do. A connected
-    /// component of the set is covered by the closed boxes of the first kind, so it lies in one component of G⁺;
-    /// closed inside boxes that share a point lie in one component of the set (`docs/theory.md`, the sandwich).
-    /// Boxes that may touch where coordinates fold up, or in another chart, join G⁺ only, which keeps the lower bound a lower
-    /// bound. Boxes that a fold's chart covers are not in G⁺, its own boxes stand for them; but inside they are, so they do
-    /// connect in G⁻.
-    pub(super) fn new(robot: &Robot, sheets: &[Paving], sight: &impl Fn(&Node) -> Mark) -> Self {
-        Self::with_links(robot, sheets, sight, &mut |_, _| {})
+    /// component of the set is covered by the closed boxes of the first kind, so it lies in one component of
+    /// G⁺; closed inside boxes that share a point lie in one component of the set (`docs/theory.md`, the
+    /// sandwich). Boxes that may touch where coordinates fold up, or in another chart, join G⁺ only, which
+    /// keeps the lower bound a lower bound. Boxes that a fold's chart covers are not in G⁺, its own boxes
+    /// stand for them; but inside they are, so they do connect in G⁻.
+    pub(super) fn new(robot: &Robot, sheets: &[Paving], classify: &impl Fn(&Node) -> Mark) -> Self {
+        Self::with_links(robot, sheets, classify, &mut |_, _| {})
     }
 
     /// [`Components::new`], and a visit of every pair of boxes (by index) that G⁺ joins and G⁻ need not.
     pub(super) fn with_links(
         robot: &Robot,
         sheets: &[Paving],
-        sight: &impl Fn(&Node) -> Mark,
+        classify: &impl Fn(&Node) -> Mark,
         visit: &mut impl FnMut(u32, u32),
     ) -> Self {
         // One sheet alone has nothing to cover it. Covered boxes count only where they are inside.
         let is_covered = |node: &Node| node.covered && sheets.len() > 1;
-        let kept = |node: &Node| match sight(node) {
+        let kept = |node: &Node| match classify(node) {
             Mark::Open if is_covered(node) && node.first_child == 0 => Mark::Outside,
             mark @ (Mark::Inside | Mark::Outside | Mark::Open) => mark,
         };
@@ -89,7 +91,7 @@ impl Components {
         }
         let index = Index::new(sheets, &boxes);
         let node = |(s, at): Leaf| &sheets[s].nodes[at as usize];
-        let is_inside = |leaf: Leaf| sight(node(leaf)) == Mark::Inside;
+        let is_inside = |leaf: Leaf| classify(node(leaf)) == Mark::Inside;
         let mut all = UnionFind::new(boxes.len());
         let mut inner = UnionFind::new(boxes.len());
         let mut may_touch = |a: Leaf, b: Leaf, surely: bool| {
@@ -165,7 +167,7 @@ impl Components {
     }
 }
 
-/// Where each box is in the list of boxes.
+/// The position of each box in the list of boxes.
 struct Index(Vec<Vec<u32>>);
 
 impl Index {
@@ -182,9 +184,10 @@ impl Index {
     }
 }
 
-/// Pairs of boxes of a set that may touch where the coordinates fold up: at pitch = ±π/2 roll and yaw turn about the same
-/// axis, so boxes there may touch whatever their roll and yaw. Where one of the two is held the other tells all poses apart.
-fn folds(robot: &Robot, paving: &Paving, sight: &impl Fn(&Node) -> Mark) -> Vec<(u32, u32)> {
+/// Pairs of boxes of a set that may touch where the coordinates fold up: at pitch = ±π/2 roll and yaw turn
+/// about the same axis, so boxes there may touch whatever their roll and yaw. Where one of the two is held
+/// the other tells all poses apart.
+fn folds(robot: &Robot, paving: &Paving, classify: &impl Fn(&Node) -> Mark) -> Vec<(u32, u32)> {
     let Some([roll, pitch, yaw]) = robot.platform.turns() else { return Vec::new() };
     let varies = |k: usize| paving.axes.contains(&k);
     if !varies(roll) || !varies(yaw) {
@@ -194,7 +197,7 @@ fn folds(robot: &Robot, paving: &Paving, sight: &impl Fn(&Node) -> Mark) -> Vec<
     let axis = paving.axes.iter().position(|&k| k == pitch);
     let mut pairs = Vec::new();
     let mut at_pole: [Option<u32>; 2] = [None; 2];
-    paving.boxes_of(sight, &mut |at| {
+    paving.boxes_of(classify, &mut |at| {
         let (lo, hi) = paving.bounds(at);
         let (lo, hi) = axis.map_or(paving.window.ranges[pitch], |a| (lo[a], hi[a]));
         for (pole, touches) in [lo <= -half_turn, hi >= half_turn].into_iter().enumerate() {

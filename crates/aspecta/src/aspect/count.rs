@@ -11,24 +11,27 @@ pub(super) struct Counted {
     pub components: Components,
     /// One entry per component of G⁺ that holds an inside box: at least one aspect each.
     pub found: Vec<Group>,
-    /// Whether no aspect can hide in an undecided box: then there are at most as many aspects as summits, all told.
+    /// Whether no aspect can hide in an undecided box: then there are at most as many aspects as summits, all
+    /// told.
     pub closed: bool,
     /// The paths, proved to lie in the class, that joined pieces.
     pub joins: Vec<Path>,
     /// Boxes found to have no summit, for the atlas to remember.
     pub summitless: Vec<Leaf>,
-    /// Boxes of the base found to lie in a later chart, for the atlas to remember: then the count is due once more.
+    /// Boxes of the base found to lie in a later chart, for the atlas to remember: then the count is due once
+    /// more.
     pub covered: Vec<Leaf>,
-    /// What lies between pieces that were not joined.
+    /// The undecided boxes between pieces that were not joined.
     pub between: Between,
 }
 
 /// Undecided boxes between unjoined pieces of G⁻.
 #[derive(Default)]
 pub(super) struct Between {
-    /// Those half-way, where the floods run into each other: finer ones would part the pieces. And those that keep a component from being settled.
+    /// Boxes half-way between pieces, where the searches from both sides meet: to split them can separate the
+    /// pieces. Also boxes that keep a component from being settled.
     pub front: Vec<Leaf>,
-    /// Those on the shortest ways from one to the other: finer ones would join them.
+    /// Boxes on the shortest ways from one piece to the other: to split them can join the pieces.
     pub ways: Vec<Leaf>,
 }
 
@@ -38,10 +41,11 @@ pub(super) struct Group {
     pub component: u32,
     /// Its pieces of inside boxes.
     pub pieces: Vec<u32>,
-    /// Whether it surely holds an aspect of its own: not so if all its inside boxes may lie within the chart of a fold, whose own
-    /// boxes, which they need not meet, then stand for them.
+    /// Whether it surely holds an aspect of its own: not so if all its inside boxes may lie within the chart
+    /// of a fold, whose own boxes, which they need not meet, then stand for them.
     pub anchored: bool,
-    /// In how many parts, not joined, an aspect may have its summit: at most this many aspects, if the class is closed.
+    /// In how many parts, not joined, an aspect may have its summit: at most this many aspects, if the class
+    /// is closed.
     pub summits: usize,
 }
 
@@ -67,10 +71,10 @@ const SEARCHED: usize = 1 << 14;
 
 /// Counts a class.
 pub(super) fn count(atlas: &Atlas<'_>, class: Class, limits: &Limits<'_>) -> Counted {
-    let sight = |node: &Node| node.of_classes(class.bit);
+    let classify = |node: &Node| node.of_classes(class.bit);
     let mut links = Vec::new();
     let components =
-        Components::with_links(atlas.robot, &atlas.sheets, &sight, &mut |i, j| links.push((i, j)));
+        Components::with_links(atlas.robot, &atlas.sheets, &classify, &mut |i, j| links.push((i, j)));
     let mut anchored = BTreeSet::new();
     for (i, &leaf) in components.boxes.iter().enumerate() {
         if let (Some(component), Some(_)) = (components.component_of[i], components.piece_of[i])
@@ -81,16 +85,16 @@ pub(super) fn count(atlas: &Atlas<'_>, class: Class, limits: &Limits<'_>) -> Cou
         }
     }
     let mut summitless = Vec::new();
-    let fertile = fertile(atlas, class.bit, &components, &anchored, limits, &mut summitless);
+    let with_summit = with_summit(atlas, class.bit, &components, &anchored, limits, &mut summitless);
     let (mut joined, joins) =
-        merge(atlas.robot, &atlas.sheets, class, &components, &fertile, &|| limits.is_spent());
+        merge(atlas.robot, &atlas.sheets, class, &components, &with_summit, &|| limits.is_spent());
     let mut groups = BTreeMap::<u32, Vec<u32>>::new();
     for (k, piece) in components.pieces.iter().enumerate() {
         groups.entry(piece.component).or_default().push(k as u32);
     }
     let group = |(component, pieces): (u32, Vec<u32>)| {
         let anchored = anchored.contains(&component);
-        let tops = pieces.iter().filter(|&&k| fertile[k as usize]).map(|&k| joined.root(k));
+        let tops = pieces.iter().filter(|&&k| with_summit[k as usize]).map(|&k| joined.root(k));
         // An aspect has a summit.
         let summits = tops.collect::<BTreeSet<u32>>().len().max(usize::from(anchored));
         Group { component, pieces, anchored, summits }
@@ -98,7 +102,7 @@ pub(super) fn count(atlas: &Atlas<'_>, class: Class, limits: &Limits<'_>) -> Cou
     let found: Vec<Group> = groups.into_iter().map(group).collect();
     let closed = components.boxes.iter().all(|&leaf| atlas.open(leaf) & class.bit == 0);
     let mut between = if found.iter().any(|group| group.summits > 1) {
-        let label = |piece: u32| fertile[piece as usize].then_some(piece);
+        let label = |piece: u32| with_summit[piece as usize].then_some(piece);
         between(&components, links, &found, &label, &mut joined)
     } else {
         Between::default()
@@ -108,8 +112,9 @@ pub(super) fn count(atlas: &Atlas<'_>, class: Class, limits: &Limits<'_>) -> Cou
     Counted { components, found, closed, joins, summitless, covered, between }
 }
 
-/// Which pieces may hold a summit of an aspect. The largest piece of an anchored component is not searched: there is one somewhere.
-fn fertile(
+/// Returns which pieces may hold a summit of an aspect. The largest piece of an anchored component is not
+/// searched: there is one somewhere.
+fn with_summit(
     atlas: &Atlas<'_>,
     bit: ClassSet,
     components: &Components,
@@ -163,8 +168,9 @@ fn fertile(
         .collect()
 }
 
-/// Of the components that may hold an aspect or not: the boxes of the base that lie in a later chart after all, and the largest undecided boxes. Finer
-/// ones would anchor them, or show that they have no summit.
+/// Returns, of the components that may hold an aspect or not, the boxes of the base that lie in a later chart
+/// after all, and the largest undecided boxes. Finer ones would anchor them, or show that they have no
+/// summit.
 fn loose(atlas: &Atlas<'_>, components: &Components, found: &[Group]) -> (Vec<Leaf>, Vec<Leaf>) {
     let loose: BTreeSet<u32> =
         found.iter().filter(|g| !g.anchored && g.summits > 0).map(|g| g.component).collect();
@@ -179,7 +185,8 @@ fn loose(atlas: &Atlas<'_>, components: &Components, found: &[Group]) -> (Vec<Le
     (covered.collect(), unsettled.collect())
 }
 
-/// The undecided boxes between unjoined pieces. G⁺ is flooded from all of them at once, along its `links`; a piece needs none.
+/// The undecided boxes between unjoined pieces. G⁺ is flooded from all of them at once, along its `links`; a
+/// piece needs none.
 fn between(
     components: &Components,
     mut links: Vec<(u32, u32)>,
@@ -187,14 +194,14 @@ fn between(
     label: &impl Fn(u32) -> Option<u32>,
     joined: &mut UnionFind,
 ) -> Between {
-    let torn: BTreeSet<u32> = found.iter().filter(|g| g.summits > 1).map(|g| g.component).collect();
-    let in_torn = |i: u32| components.component_of[i as usize].is_some_and(|c| torn.contains(&c));
-    links.retain(|&(i, _)| in_torn(i));
+    let split: BTreeSet<u32> = found.iter().filter(|g| g.summits > 1).map(|g| g.component).collect();
+    let is_split = |i: u32| components.component_of[i as usize].is_some_and(|c| split.contains(&c));
+    links.retain(|&(i, _)| is_split(i));
     // The boxes of a piece are one vertex.
     let mut vertex = UnionFind::new(components.boxes.len());
     let piece = |i: u32| components.piece_of[i as usize];
     let mut first = BTreeMap::<u32, u32>::new();
-    for i in (0..components.boxes.len() as u32).filter(|&i| in_torn(i)) {
+    for i in (0..components.boxes.len() as u32).filter(|&i| is_split(i)) {
         if let Some(p) = piece(i) {
             vertex.union(*first.entry(p).or_insert(i), i);
         }
@@ -240,7 +247,8 @@ struct Reached {
 }
 
 impl Flood {
-    /// Goes on from what is reached along the links, breadth first; vertices that are `free` cost nothing to cross.
+    /// Goes on from what is reached along the links, breadth first; vertices that are `free` cost nothing to
+    /// cross.
     fn run(&mut self, links: &[(u32, u32)], is_free: &impl Fn(u32) -> bool) {
         let neighbours = Neighbours::new(self.0.len(), links);
         let mut front: VecDeque<u32> = (0..).zip(&self.0).filter_map(|(v, r)| r.map(|_| v)).collect();

@@ -1,4 +1,4 @@
-//! Where the bounds on the number of aspects are kept apart.
+//! Doubts: the boxes that keep the bounds on the number of aspects apart, and why.
 
 use super::ascent::Class;
 use super::atlas::{Atlas, Leaf};
@@ -10,7 +10,7 @@ use aspecta_kinematics::constraints::{Constraints, Demand};
 use aspecta_kinematics::for_platform;
 use aspecta_robot::num::{Interval, Scalar};
 
-/// What keeps the bounds of a class apart.
+/// Returns the doubts that keep the bounds of a class apart.
 pub(super) fn doubts(atlas: &Atlas<'_>, class: Class, counted: &Counted) -> Vec<Doubt> {
     if counted.is_exact() {
         return Vec::new();

@@ -1,7 +1,7 @@
 //! The definitions the generalized aspects replace: parallel aspects (Def. 5) and serial aspects (Def. 6).
 //!
-//! The paper applies them to a robot with several inverse *and* several direct solutions to show that neither separates
-//! them (section 3.3, figures 6 and 7): the domains overlap.
+//! The paper applies them to a robot with several inverse *and* several direct solutions to show that neither
+//! separates them (section 3.3, figures 6 and 7): the domains overlap.
 
 use super::components::Components;
 use super::result::{EarlierAspects, EarlierDomain, Sample};
@@ -64,10 +64,10 @@ fn mode_in(paving: &Paving, node: &Node, classes: ClassSet) -> WorkingMode {
 }
 
 /// Certified inner measure of a set.
-fn measure(paving: &Paving, sight: &impl Fn(&Node) -> Mark) -> f64 {
+fn measure(paving: &Paving, classify: &impl Fn(&Node) -> Mark) -> f64 {
     let mut sum = 0.0;
-    paving.boxes_of(sight, &mut |at| {
-        if sight(&paving.nodes[at as usize]) == Mark::Inside {
+    paving.boxes_of(classify, &mut |at| {
+        if classify(&paving.nodes[at as usize]) == Mark::Inside {
             sum += paving.measure(paving.depth_of(at));
         }
     });
@@ -88,9 +88,10 @@ impl Domain {
     }
 }
 
-/// The domains of a set: one entry per component of inside and undecided boxes that holds an inside box, largest first.
-fn domains(robot: &Robot, paving: &Paving, sight: &impl Fn(&Node) -> Mark) -> Vec<Domain> {
-    let components = Components::new(robot, std::slice::from_ref(paving), sight);
+/// The domains of a set: one entry per component of inside and undecided boxes that holds an inside box,
+/// largest first.
+fn domains(robot: &Robot, paving: &Paving, classify: &impl Fn(&Node) -> Mark) -> Vec<Domain> {
+    let components = Components::new(robot, std::slice::from_ref(paving), classify);
     let mut by_component = std::collections::BTreeMap::<u32, Domain>::new();
     for piece in &components.pieces {
         let start = Domain { measure: 0.0, largest: piece.largest.1 };

@@ -1,4 +1,4 @@
-//! What an analysis is over: the coordinates that are held, and the unit in which the others are measured.
+//! The extent of an analysis: the coordinates that are fixed, and the unit in which the others are measured.
 
 use aspecta_robot::{Robot, Window};
 use serde::{Serialize, Serializer};
@@ -32,7 +32,7 @@ impl fmt::Display for Held {
     }
 }
 
-/// What the measures of an analysis are of: the poses as a set of the coordinates that vary.
+/// The quantity that an analysis measures, of poses as sets of the coordinates that vary, and its unit.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Measure {
     /// `length`, `angle`, `area` or `volume`.

@@ -56,8 +56,8 @@ impl Union {
 /// Enclosures, one a coordinate.
 type Image = ArrayVec<Interval, 6>;
 
-/// Adds the images of the given boxes to a union per coordinate. The image of a box that holds several of them is looked at first: if it
-/// adds nothing, neither do theirs.
+/// Adds the images of the given boxes to a union per coordinate. The image of a box that holds several of
+/// them is looked at first: if it adds nothing, neither do theirs.
 fn add_images(paving: &Paving, boxes: &[u32], unions: &mut [Union], image: &impl Fn(u32) -> Image) {
     let mut mine = vec![Holds::Nothing; paving.nodes.len()];
     boxes.iter().for_each(|&node| mine[node as usize] = Holds::Itself);
@@ -150,7 +150,7 @@ fn clamped(x: Interval, (lo, hi): (f64, f64)) -> Interval {
     Interval::new(x.lo.clamp(lo, hi), x.hi.clamp(lo, hi))
 }
 
-/// What a range has in common with a limit; angles may lie full turns apart.
+/// Returns the common part of a range and a limit; angles may lie full turns apart.
 fn common(limit: Interval, x: Interval, leg: &Leg) -> Interval {
     if !leg.actuator.is_angle() {
         return clamped(x, (limit.lo, limit.hi));

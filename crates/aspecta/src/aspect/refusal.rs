@@ -1,4 +1,4 @@
-//! What is not analysed.
+//! The robots and slices that cannot be analysed.
 
 use super::options::Options;
 use crate::paving::{AXES, MODES};
@@ -46,7 +46,7 @@ pub enum AnalysisError {
     },
 }
 
-/// What cannot be analysed whatever the slice.
+/// Returns an error for a robot that cannot be analysed, whatever the slice.
 pub(super) fn refuse(robot: &Robot, options: &Options) -> Result<(), AnalysisError> {
     let dof = robot.dof();
     let held = |k: usize| options.fix.iter().any(|&(held, _)| held == k);

@@ -1,4 +1,4 @@
-//! What an analysis returns: plain values that know the robot they came from.
+//! The result of an analysis: plain values that know the robot they came from.
 
 use super::ascent::{Class, ascend};
 use super::measure::{Held, Measure};
@@ -26,7 +26,7 @@ pub struct Analysis {
     pub window: Window,
     /// The coordinates that were held: empty unless a slice was analysed.
     pub fixed: Vec<Held>,
-    /// What all measures are of, and their unit.
+    /// The quantity that is measured, and its unit.
     pub measure: Measure,
     /// Certified bounds on the number of generalized aspects, all modes and both signs together.
     pub aspects: Count,
@@ -36,15 +36,16 @@ pub struct Analysis {
     pub modes: Vec<ModeReport>,
     /// Table 2: one class per working mode and sign of det A, in the order of the modes, + before −.
     pub classes: Vec<AspectClass>,
-    /// What keeps the bounds apart, where they do not meet; empty if they do.
+    /// The doubts that keep the bounds apart; empty if the bounds meet.
     pub doubts: Vec<Doubt>,
     /// Whether the robot seems to be singular wherever it goes ([`aspecta_kinematics::seems_architecturally_singular`], numerical): then nothing is
     /// ever decided.
     pub architecturally_singular: bool,
     /// Surfaces on which det A vanishes to higher order: a reason for doubts that no refinement removes.
     pub parallel_rods: Vec<ParallelRods>,
-    /// Legs (from 1) of a platform that turns about a point whose joint can come onto the motor's axis, where the motor is free, if two legs' can at once: round
-    /// these orientations the bounds may stay apart.
+    /// The legs (from 1), of a platform that turns about a point, that can fold two at once: the platform's
+    /// joint then lies on the motor's axis, the motor's angle is free, and the bounds may stay apart near
+    /// such orientations.
     pub uncharted_folds: Vec<usize>,
     /// Definition 5 applied to this robot: what figures 6 and 7 show. Two entries, det A > 0 and < 0.
     pub parallel_aspects: Vec<EarlierAspects>,
@@ -65,7 +66,7 @@ pub struct Analysis {
     pub(crate) labels: Vec<Vec<(u32, u32)>>,
 }
 
-/// Where a pose is, as one class sees it.
+/// The place of a pose with respect to one class.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// In the aspect with this [`Aspect::id`] (certified).
@@ -92,8 +93,9 @@ impl Analysis {
         (&self.pavings[class / (2 * MODES)], 1 << (class % (2 * MODES)))
     }
 
-    /// Where `pose` is, as class `class` (index into [`Analysis::classes`]) sees it; angles count modulo 2π. A pose on the
-    /// boundary of two cells may get the answer of either; one off the slice is outside.
+    /// Returns the place of `pose` with respect to class `class` (index into [`Analysis::classes`]); angles
+    /// count modulo 2π. A pose on the boundary of two cells may get the answer of either; one off the slice
+    /// is outside.
     ///
     /// # Examples
     /// ```
@@ -221,7 +223,7 @@ pub struct Doubt {
     pub mode: WorkingMode,
     /// The sign of det A.
     pub det_a: DetSign,
-    /// What is not decided.
+    /// The kind of doubt.
     pub kind: DoubtKind,
     /// In how many boxes.
     pub boxes: usize,

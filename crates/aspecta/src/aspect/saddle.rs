@@ -1,9 +1,10 @@
 //! The second-order test for summits: where det A alone decides, a summit is a local maximum of σ det A.
 //!
-//! Theorem. Let det A / scale be certainly the least of all constraints in a box in which every leg closes strictly (so that the
-//! others stay greater near a summit there). If v·∇²(σ det A)·v > 0 all over the box for some vector v, no point of it is a
-//! local maximum of σ det A, and no aspect has a summit in the box. This settles boxes round the double points of det A = 0, where
-//! ∇det A vanishes and no first-order test can succeed: robots with a symmetry have them exactly.
+//! Theorem. Let det A / scale be certainly the least of all constraints in a box in which every leg closes
+//! strictly (so that the others stay greater near a summit there). If v·∇²(σ det A)·v > 0 all over the box
+//! for some vector v, no point of it is a local maximum of σ det A, and no aspect has a summit in the box.
+//! This settles boxes round the double points of det A = 0, where ∇det A vanishes and no first-order test can
+//! succeed: robots with a symmetry have them exactly.
 
 use crate::paving::Paving;
 use aspecta_kinematics::chart::Coordinates;
@@ -15,8 +16,8 @@ use nalgebra::{DMatrix, SMatrix};
 
 type Second<const M: usize> = Jet<Jet<Interval, M>, M>;
 
-/// For σ = + and −: whether det A of a mode surely has no local maximum of σ det A in a box. The caller knows that nothing else is
-/// active.
+/// Whether, for σ = + and −, σ det A of a mode is proved to have no local maximum in a box. The caller knows
+/// that nothing else is active.
 pub(super) fn no_local_maximum<const D: usize, const N: usize, const M: usize>(
     robot: &Robot,
     paving: &Paving,

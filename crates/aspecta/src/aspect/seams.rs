@@ -1,4 +1,4 @@
-//! Where the boxes of one chart meet those of another.
+//! Seams: the places where the boxes of one chart meet those of another.
 
 use super::atlas::Leaf;
 use crate::paving::{Mark, Node, Paving};
@@ -9,28 +9,31 @@ use aspecta_kinematics::for_platform;
 use aspecta_robot::Robot;
 use aspecta_robot::num::{Interval, Scalar};
 
-/// The sheet whose boxes, and those that replace some of them, hold all configurations: that of poses, or of a chart that holds all.
+/// The sheet whose boxes, and those that replace some of them, hold all configurations: that of poses, or of
+/// a chart that holds all.
 pub(super) fn base_of(sheets: &[Paving]) -> usize {
     usize::from(sheets.get(1).is_some_and(|sheet| sheet.chart.is_whole()))
 }
 
-/// Pairs (box of the base, box of a later sheet) that may share a configuration in which neither box is replaced by the other.
+/// Pairs (box of the base, box of a later sheet) that may share a configuration in which neither box is
+/// replaced by the other.
 ///
-/// The boxes of a fold's sheet and those boxes of the base that it does not cover, cut to the configurations the chart does not hold, cover
-/// all configurations. The two kinds meet only in the chart's outer faces, so every box at such a face is joined with all
-/// that its image may meet.
+/// The boxes of a fold's sheet and those boxes of the base that it does not cover, cut to the configurations
+/// the chart does not hold, cover all configurations. The two kinds meet only in the chart's outer faces, so
+/// every box at such a face is joined with all that its image may meet.
 pub(super) fn outer(
     robot: &Robot,
     sheets: &[Paving],
-    sight: &impl Fn(&Node) -> Mark,
+    classify: &impl Fn(&Node) -> Mark,
     join: &mut impl FnMut(Leaf, Leaf),
 ) {
     let base = base_of(sheets);
     for (k, sheet) in sheets.iter().skip(base + 1).enumerate() {
         let s = base + 1 + k;
-        // An image is a box, but the face is thin and slanted: most boxes that meet the former are away from the chart.
-        let at_edge = |node: &Node| if node.partly >> k & 1 == 0 { Mark::Outside } else { sight(node) };
-        sheet.boxes_of(sight, &mut |at| {
+        // An image is a box, but the face is thin and slanted: most boxes that meet the former are away from
+        // the chart.
+        let at_edge = |node: &Node| if node.partly >> k & 1 == 0 { Mark::Outside } else { classify(node) };
+        sheet.boxes_of(classify, &mut |at| {
             for face in outer_faces(robot, sheet, at) {
                 for image in images(robot, &sheets[base], sheet, &face) {
                     sheets[base].meeting(&at_edge, &image, &mut |other| join((base, other), (s, at)));
@@ -40,26 +43,28 @@ pub(super) fn outer(
     }
 }
 
-/// Pairs (inside box of the sheet beneath, inside box of a sheet) that share a configuration, the centre of the latter seeming to lie in
-/// the former; the third argument of `join` proves that it does. Beneath the base are the poses, beneath all others the base.
+/// Pairs (inside box of the sheet beneath, inside box of a sheet) that share a configuration, the centre of
+/// the latter seeming to lie in the former; the third argument of `join` proves that it does. Beneath the
+/// base are the poses, beneath all others the base.
 pub(super) fn inner(
     robot: &Robot,
     sheets: &[Paving],
-    sight: &impl Fn(&Node) -> Mark,
+    classify: &impl Fn(&Node) -> Mark,
     join: &mut impl FnMut(Leaf, Leaf, &dyn Fn() -> bool),
 ) {
     let base = base_of(sheets);
     for (s, sheet) in sheets.iter().enumerate().skip(1) {
         let beneath = if s > base { base } else { 0 };
         let under = &sheets[beneath];
-        sheet.boxes_of(sight, &mut |at| {
-            if sight(&sheet.nodes[at as usize]) != Mark::Inside {
+        sheet.boxes_of(classify, &mut |at| {
+            if classify(&sheet.nodes[at as usize]) != Mark::Inside {
                 return;
             }
             for (k, point) in middles(robot, under, sheet, at).iter().enumerate() {
                 // In the other posture of the base's leg it is another configuration, of another mode.
-                let found = under.find(sight, point).filter(|(_, surely)| *surely).map(|(other, _)| other);
-                let Some(other) = found.filter(|&n| sight(&under.nodes[n as usize]) == Mark::Inside) else {
+                let found = under.find(classify, point).filter(|(_, surely)| *surely).map(|(other, _)| other);
+                let Some(other) = found.filter(|&n| classify(&under.nodes[n as usize]) == Mark::Inside)
+                else {
                     continue;
                 };
                 join((beneath, other), (s, at), &|| {
@@ -75,7 +80,7 @@ pub(super) fn middle(sheet: &Paving, at: u32) -> Vec<Interval> {
     sheet.centre(at).into_iter().map(Interval::point).collect()
 }
 
-/// What the centre of a box is in the chart of the sheet `under`, numerically: in each posture of its leg.
+/// Returns the centre of a box in the chart of the sheet `under`, numerically, in each posture of its leg.
 fn middles(robot: &Robot, under: &Paving, sheet: &Paving, at: u32) -> ArrayVec<Vec<f64>, 2> {
     if under.chart == Chart::Pose {
         return std::iter::once(pose_at_centre(robot, sheet, at)).collect();
@@ -118,7 +123,8 @@ pub(super) fn poses(robot: &Robot, sheets: &[Paving], (s, at): Leaf) -> Vec<Inte
     for_platform!(robot.platform, poses_in(robot, &sheets[s].chart, &sheets[s].extent(at)))
 }
 
-/// Coordinates of the sheet `under` that hold the configurations with the coordinates `y` of another: if its chart is a chain, in each posture of its leg.
+/// Coordinates of the sheet `under` that hold the configurations with the coordinates `y` of another: if its
+/// chart is a chain, in each posture of its leg.
 fn images(robot: &Robot, under: &Paving, sheet: &Paving, y: &[Interval]) -> ArrayVec<Vec<Interval>, 2> {
     for_platform!(robot.platform, images_in(robot, &under.chart, &sheet.chart, y))
 }

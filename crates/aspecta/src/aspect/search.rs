@@ -19,9 +19,9 @@ pub(super) struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    /// Paves evenly to a moderate depth; then splits the boxes in which an aspect could hide until none could; then, class by
-    /// class, those that lie between pieces not proved to be one, until they are joined or parted. At last everything undecided is
-    /// split to the resolution asked for.
+    /// Paves evenly to a moderate depth; then splits the boxes in which an aspect could hide until none
+    /// could; then, class by class, those that lie between pieces not proved to be one, until they are joined
+    /// or parted. At last everything undecided is split to the resolution asked for.
     pub(super) fn run(
         robot: &'a Robot,
         window: &Window,
@@ -87,7 +87,8 @@ impl<'a> Search<'a> {
         self.remember(limits);
     }
 
-    /// Has the atlas remember which boxes the counts found to have no summit, or to lie in a chart: then counts are due again.
+    /// Has the atlas remember which boxes the counts found to have no summit, or to lie in a chart: then
+    /// counts are due again.
     fn remember(&mut self, limits: &Limits<'_>) {
         let mut covered = false;
         for (class, counted) in &mut self.counted {
@@ -102,7 +103,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Splits what lies between pieces not proved to be one, until the bounds meet or the limits end it: false if boxes or time do.
+    /// Splits what lies between pieces not proved to be one, until the bounds meet or the limits end it:
+    /// false if boxes or time do.
     fn join(&mut self, limits: &Limits<'_>) -> bool {
         let mut afforded = true;
         loop {
@@ -121,10 +123,11 @@ impl<'a> Search<'a> {
             let split: Vec<Leaf> = split.into_iter().collect();
             let Some(mut fresh) = self.atlas.split(&split, limits) else { break };
             // Ways are few: they are followed several levels down before the pieces are counted again.
-            let torn = self.counted.iter().filter(open).fold(0, |torn, (class, _)| torn | class.bit);
+            let unsettled =
+                self.counted.iter().filter(open).fold(0, |unsettled, (class, _)| unsettled | class.bit);
             let mut tips: Vec<Leaf> = ways.into_iter().collect();
             for _ in 0..AHEAD {
-                tips = self.atlas.undecided_children(&tips, torn);
+                tips = self.atlas.undecided_children(&tips, unsettled);
                 if tips.len() > limits.affordable(&self.atlas) {
                     break;
                 }
@@ -152,6 +155,6 @@ const AHEAD: usize = 2;
 /// How long the last count and the report take, in counts.
 const AFTER: f64 = 2.0;
 
-/// About how long, in seconds, a thread takes to count and to report one class, for each box of the atlas. A first guess: time budgets are
-/// kept as well as this is; nothing else depends on it.
+/// About how long, in seconds, a thread takes to count and to report one class, for each box of the atlas. A
+/// first guess: time budgets are kept as well as this is; nothing else depends on it.
 const PER_BOX: f64 = 0.5e-6;

@@ -1,22 +1,24 @@
 //! No hiding: the proof that no aspect has its highest point in a box.
 //!
 //! # Theorem
-//! Let g_1, …, g_r be the functions whose common positivity region is S_{s,σ} (σ det A, the h_j = √H_j, the limits, the distances to
-//! the faces at which the user's window cuts the workspace), each divided by a positive constant, and
+//! Let g_1, …, g_r be the functions whose common positivity region is S_{s,σ} (σ det A, the h_j = √H_j, the
+//! limits, the distances to the faces at which the user's window cuts the workspace), each divided by a
+//! positive constant, and
 //!
 //! > P = min_k g_k.
 //!
-//! S_{s,σ} is bounded and P vanishes on its boundary, so P has a maximum, a *summit*, in each of its components. At a summit
-//! no tangent vector makes all the g_k that attain the minimum grow. Hence, if a box comes with tangent vectors e(X) such that
-//! e·∇g_k > 0 on all of box ∩ S_{s,σ} for every g_k that can attain the minimum there, no aspect has a summit in the box.
+//! S_{s,σ} is bounded and P vanishes on its boundary, so P has a maximum, a *summit*, in each of its
+//! components. At a summit no tangent vector makes all the g_k that attain the minimum grow. Hence, if a box
+//! comes with tangent vectors e(X) such that e·∇g_k > 0 on all of box ∩ S_{s,σ} for every g_k that can attain
+//! the minimum there, no aspect has a summit in the box.
 //!
-//! Nothing is assumed of the robot: where the test fails, nothing is concluded. It succeeds in every small enough box
-//! whose singular functions have linearly independent gradients *in the variables (X, h)*, which is what
-//! `docs/theory.md`, 5, calls a generic robot.
+//! Nothing is assumed of the robot: where the test fails, nothing is concluded. It succeeds in every small
+//! enough box whose singular functions have linearly independent gradients *in the variables (X, h)*, which
+//! is what `docs/theory.md`, 5, calls a generic robot.
 //!
 //! # The vectors
-//! ∂det A/∂X grows without bound where some h_j = √H_j vanishes, but det A is smooth in (X, h) with 2h_j ḣ_j = ∇H_j·Ẋ. For
-//! the legs J that are singular in the box, the vectors are combinations of
+//! ∂det A/∂X grows without bound where some h_j = √H_j vanishes, but det A is smooth in (X, h) with 2h_j
+//! ḣ_j = ∇H_j·Ẋ. For the legs J that are singular in the box, the vectors are combinations of
 //!
 //! - t, tangent to every {H_j = const}, j ∈ J: ḣ_j = 0 for j ∈ J;
 //! - h_j m_j, with m_j tangent to {H_i = const} for the other i ∈ J: ḣ_j = ½ ∇H_j·m_j and ḣ_i = 0,
@@ -50,7 +52,7 @@ use way::Way;
 /// More constraints than any robot file can bring to bear on one box at once.
 const MOST: usize = 64;
 
-/// Of the classes asked of each box, those that surely have no summit there.
+/// Returns, of the classes asked of each box, those proved to have no summit there.
 pub(super) fn summitless<const D: usize, const N: usize, const M: usize>(
     robot: &Robot,
     paving: &Paving,
@@ -59,7 +61,8 @@ pub(super) fn summitless<const D: usize, const N: usize, const M: usize>(
 ) -> Vec<ClassSet> {
     let found = by_eights::<Found, D, N, M>(robot, paving, scale, asked, |boxes| boxes.look());
     let mut proved: Vec<ClassSet> = found.iter().map(|found| found.proved).collect();
-    // Those left over are looked at once more, side by side with their like: what takes one of them many parts takes as many in all eight.
+    // Those left over are looked at once more, side by side with their like: what takes one of them many
+    // parts takes as many in all eight.
     let depth = |i: usize| paving.depth_of(asked[i].0);
     let mut left: Vec<usize> = (0..asked.len())
         .filter(|&i| asked[i].1 & !proved[i] != 0 && (found[i].singular != 0 || depth(i) >= DEEP))
@@ -71,7 +74,7 @@ pub(super) fn summitless<const D: usize, const N: usize, const M: usize>(
     proved
 }
 
-/// What `look` finds of each box, eight boxes at a time.
+/// Returns the result of `look` for each box, eight boxes at a time.
 fn by_eights<T: Send, const D: usize, const N: usize, const M: usize>(
     robot: &Robot,
     paving: &Paving,
@@ -87,7 +90,7 @@ fn by_eights<T: Send, const D: usize, const N: usize, const M: usize>(
     work::flat_map(&packs, |boxes| of_eight(boxes))
 }
 
-/// What a first look at a box finds.
+/// The result of a first look at a box.
 struct Found {
     /// The classes without a summit in it.
     proved: ClassSet,
@@ -138,7 +141,8 @@ impl<'a, const D: usize, const N: usize, const M: usize> Eight<'a, D, N, M> {
         proved.into_iter().take(self.boxes.len()).collect()
     }
 
-    /// Near a serial singularity h varies like the root of the box's width: its range is cut, and each part looked at.
+    /// Near a serial singularity h varies like the root of the box's width: its range is cut, and each part
+    /// looked at.
     fn by_parts(&self) -> [ClassSet; LANES] {
         let singular = std::array::from_fn(|j| {
             (0..LANES).any(|l| self.asked[l] != 0 && self.view.may_be_singular(j, l))
@@ -165,7 +169,7 @@ impl<'a, const D: usize, const N: usize, const M: usize> Eight<'a, D, N, M> {
         self.view.choices().iter().map(|singular| Way::new(self.view, singular)).collect()
     }
 
-    /// Of the classes asked, those without a summit, by any of some choices of singular legs.
+    /// Returns, of the classes asked, those proved to have no summit by any of some choices of singular legs.
     fn over(&self, ways: &[Way<'_, D, N, M>], asked: &[ClassSet; LANES]) -> [ClassSet; LANES] {
         let mut proved = [0; LANES];
         for way in ways {
@@ -176,7 +180,7 @@ impl<'a, const D: usize, const N: usize, const M: usize> Eight<'a, D, N, M> {
         proved
     }
 
-    /// Of the classes asked, those without a summit by one choice.
+    /// Returns, of the classes asked, those proved to have no summit by one choice of singular legs.
     fn by(&self, way: &Way<'_, D, N, M>, asked: &[ClassSet; LANES]) -> [ClassSet; LANES] {
         let view = &self.view;
         let frame = |l: usize| (asked[l] != 0).then(|| Frame::new(view, &way.legs, l)).flatten();
@@ -199,7 +203,8 @@ impl<'a, const D: usize, const N: usize, const M: usize> Eight<'a, D, N, M> {
         proved
     }
 
-    /// The classes of a mode without a summit in one box by the second-order test ([`no_local_maximum`]), none of the `legs` being singular.
+    /// The classes of a mode without a summit in one box by the second-order test ([`no_local_maximum`]),
+    /// none of the `legs` being singular.
     fn saddles(
         &self,
         way: &Way<'_, D, N, M>,
@@ -223,8 +228,9 @@ impl<'a, const D: usize, const N: usize, const M: usize> Eight<'a, D, N, M> {
 /// From this depth on the second-order test is tried: double points of det A = 0 are rare, and it costs more.
 const DEEP: u32 = 9;
 
-/// The ranges of h, those of the marked legs cut into parts, in all combinations. The range shrinks like the root of the box's width, so that
-/// it takes more parts in smaller boxes to match what the width leaves uncertain.
+/// The ranges of h, those of the marked legs cut into parts, in all combinations. The range shrinks like the
+/// root of the box's width, so that it takes more parts in smaller boxes to match what the width leaves
+/// uncertain.
 fn parts<const N: usize>(
     heights: &[Pack; N],
     cut: &[bool; N],
@@ -257,8 +263,9 @@ impl<const D: usize, const N: usize, const M: usize> View<'_, D, N, M> {
         self.rooted[j] && is_singular(self.reach[j].value.lane(lane))
     }
 
-    /// The choices of singular legs to try, per leg and box. A choice is valid if it has all legs that can be singular; it is mostly
-    /// better if it has all that nearly are, because ∇det A is then nearly parallel to ∇H_j.
+    /// The choices of singular legs to try, per leg and box. A choice is valid if it has all legs that can be
+    /// singular; it is mostly better if it has all that nearly are, because ∇det A is then nearly parallel to
+    /// ∇H_j.
     fn choices(&self) -> ArrayVec<[Mask; N], 2> {
         let reach = |j: usize, l: usize| self.reach[j].value.lane(l);
         let must: [Mask; N] =

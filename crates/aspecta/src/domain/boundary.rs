@@ -1,10 +1,12 @@
-//! The boundary ∂WA_ij of a W-aspect: curves in two dimensions, a triangle mesh in three, every piece named by what it is.
+//! The boundary ∂WA_ij of a W-aspect: curves in two dimensions, a triangle mesh in three, every piece named
+//! by what it is.
 //!
-//! *Numerical*, at the resolution of a grid. The grid's nodes are sorted into the aspect and the rest, every grid edge between
-//! the two is bisected to the place where a function of the class changes its sign, and the places are joined simplex by
-//! simplex (marching triangles and tetrahedra). Vertices lie on the boundary to 1e-9 of the window ([`PLACED`]) and mostly to
-//! rounding; what lies between them is a chord. What is thinner than the grid can be missed: parts of the aspect, gaps in it, and
-//! the slivers between det A = 0 and a serial singularity, which are tangent to each other where they meet.
+//! *Numerical*, at the resolution of a grid. The grid's nodes are sorted into the aspect and the rest, every
+//! grid edge between the two is bisected to the place where a function of the class changes its sign, and the
+//! places are joined simplex by simplex (marching triangles and tetrahedra). Vertices lie on the boundary to
+//! 1e-9 of the window ([`PLACED`]) and mostly to rounding; what lies between them is a chord. What is thinner
+//! than the grid can be missed: parts of the aspect, gaps in it, and the slivers between det A = 0 and a
+//! serial singularity, which are tangent to each other where they meet.
 
 mod corner;
 mod lattice;
@@ -31,8 +33,8 @@ pub struct BoundaryVertex {
     pub pose: Vec<f64>,
     /// The faces it lies on: one, or two or three that meet there.
     pub faces: [Option<Face>; 3],
-    /// How far it is from the farthest of them: |function| / ‖gradient‖, coordinates counted in widths of the window.
-    /// Infinite where it cannot be told.
+    /// How far it is from the farthest of them: |function| / ‖gradient‖, coordinates counted in widths of the
+    /// window. Infinite where it cannot be told.
     pub offset: f64,
 }
 
@@ -57,12 +59,12 @@ impl BoundaryVertex {
 pub struct Simplex {
     /// Indices of its vertices; a segment's second stands twice.
     pub corners: [u32; 3],
-    /// What it is a piece of.
+    /// The face that it is a piece of.
     pub face: Face,
 }
 
 impl Simplex {
-    /// Its edges, lower index first: one in two dimensions, three in three.
+    /// Returns its edges, lower index first: one in two dimensions, three in three.
     pub(crate) fn edges(&self, dimension: usize) -> impl Iterator<Item = (u32, u32)> + use<> {
         let [a, b, c] = self.corners;
         let ordered = |(u, v): (u32, u32)| (u.min(v), u.max(v));
@@ -85,8 +87,8 @@ pub struct Boundary {
     pub cells: usize,
     /// The vertices.
     pub vertices: Vec<BoundaryVertex>,
-    /// Segments with the aspect to their left, or triangles counter-clockwise seen from outside. Across the ends of a
-    /// glued angle differences count modulo 2π.
+    /// Segments with the aspect to their left, or triangles counter-clockwise seen from outside. Across the
+    /// ends of a glued angle differences count modulo 2π.
     pub simplices: Vec<Simplex>,
     /// Vertices that are not [`BoundaryVertex::placed`].
     pub unplaced: usize,
@@ -124,11 +126,12 @@ pub enum BoundaryError {
 }
 
 impl Boundary {
-    /// The boundary of the aspect with this [`crate::aspect::Aspect::id`], on a grid with `cells` cells per axis over
-    /// the aspect's bounds. In a slice: the boundary within the slice.
+    /// The boundary of the aspect with this [`crate::aspect::Aspect::id`], on a grid with `cells` cells per
+    /// axis over the aspect's bounds. In a slice: the boundary within the slice.
     ///
     /// # Errors
-    /// [`BoundaryError`] if there is no such aspect, the slice is a line, or the number of cells is out of range.
+    /// [`BoundaryError`] if there is no such aspect, the slice is a line, or the number of cells is out of
+    /// range.
     pub fn new(analysis: &Analysis, aspect: usize, cells: usize) -> Result<Self, BoundaryError> {
         let dimension = analysis.window.axes().len();
         if dimension < 2 {
@@ -144,8 +147,9 @@ impl Boundary {
         Ok(for_platform!(analysis.robot.platform, extract(analysis, class, aspect, cells)))
     }
 
-    /// Whether a pose of its class, strictly inside it, lies in the aspect; `None` if it cannot be told. Certified where the analysis
-    /// decides; else by what is seen from it within the class, sampled: a node of its cell, or a place uphill.
+    /// Whether a pose of its class, strictly inside it, lies in the aspect; `None` if it cannot be told.
+    /// Certified where the analysis decides; else by what is seen from it within the class, sampled: a node
+    /// of its cell, or a place uphill.
     pub(crate) fn holds<const D: usize, const N: usize>(
         &self,
         analysis: &Analysis,

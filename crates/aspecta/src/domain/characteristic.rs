@@ -1,14 +1,16 @@
 //! Characteristic surfaces (Definition 9, eq. 15): S_C(WA_ij) = g_i⁻¹( g_i(∂WA_ij) ) ∩ WA_ij.
 //!
-//! *Numerical*, on the mesh of the boundary. At every vertex X of the boundary the joint vector q = g_i(X) is taken (at a serial
-//! singularity by continuity), the direct problem of q is solved, and the solutions other than X that lie in the same aspect
-//! are kept. Along the mesh's edges they are followed by Newton's method, there and back; where that is not clear, a
-//! solution has no partner or its partner is farther away than a cell's diagonal, the edge is halved on the boundary,
-//! [`ROUNDS`] times at most. The surface ends where its
-//! solutions leave the aspect, so its rim lies on the boundary; the mesh stops short of it by up to 2^−[`ROUNDS`] of a cell.
+//! *Numerical*, on the mesh of the boundary. At every vertex X of the boundary the joint vector q = g_i(X) is
+//! taken (at a serial singularity by continuity), the direct problem of q is solved, and the solutions other
+//! than X that lie in the same aspect are kept. Along the mesh's edges they are followed by Newton's method,
+//! there and back; where that is not clear, a solution has no partner or its partner is farther away than a
+//! cell's diagonal, the edge is halved on the boundary, [`ROUNDS`] times at most. The surface ends where its
+//! solutions leave the aspect, so its rim lies on the boundary; the mesh stops short of it by up to
+//! 2^−[`ROUNDS`] of a cell.
 //!
-//! Tolerances: solutions nearer than [`APART`] to X are X itself (at a parallel singularity X is a double solution, which rounding
-//! splits; the surface is cut off as near to its cusps), and g_i(X′) = q holds to [`SAME_JOINTS`].
+//! Tolerances: solutions nearer than [`APART`] to X are X itself (at a parallel singularity X is a double
+//! solution, which rounding splits; the surface is cut off as near to its cusps), and g_i(X′) = q holds to
+//! [`SAME_JOINTS`].
 
 mod net;
 
@@ -29,7 +31,8 @@ pub const SAME_JOINTS: f64 = 1e-9;
 /// A point of a characteristic surface.
 #[derive(Clone, Debug, Serialize)]
 pub struct CharacteristicVertex {
-    /// X′, strictly inside the aspect. Only where X lies on a limit of a driven joint does X′ lie on the same limit.
+    /// X′, strictly inside the aspect. Only where X lies on a limit of a driven joint does X′ lie on the same
+    /// limit.
     pub pose: Vec<f64>,
     /// Index into [`Characteristic::sources`] of the point X of the boundary with the same joint vector.
     pub source: u32,
@@ -42,15 +45,15 @@ pub struct Characteristic {
     pub aspect: usize,
     /// Number of coordinates, 2 or 3.
     pub dimension: usize,
-    /// The points of the boundary that were looked at: the vertices of the [`Boundary`] in their order, then those
-    /// that halve its edges.
+    /// The points of the boundary that were looked at: the vertices of the [`Boundary`] in their order, then
+    /// those that halve its edges.
     pub sources: Vec<BoundaryVertex>,
     /// The vertices.
     pub vertices: Vec<CharacteristicVertex>,
-    /// Segments or triangles, with the face of the boundary they come from. Across the ends of a glued angle differences
-    /// count modulo 2π.
+    /// Segments or triangles, with the face of the boundary they come from. Across the ends of a glued angle
+    /// differences count modulo 2π.
     pub simplices: Vec<Simplex>,
-    /// What is missing.
+    /// The parts that were given up.
     pub given_up: GivenUp,
 }
 
@@ -61,8 +64,8 @@ pub struct GivenUp {
     pub rim: usize,
     /// Pieces with equally many solutions at all corners that could not be paired.
     pub unclear: usize,
-    /// Points of the boundary whose direct problem was not solved: they are not placed, or the platform moves with
-    /// locked actuators.
+    /// Points of the boundary whose direct problem was not solved: they are not placed, or the platform moves
+    /// with locked actuators.
     pub unsolved: usize,
     /// Direct solutions of which it is not known in which aspect of the class they lie.
     pub unlocated: usize,
@@ -82,11 +85,12 @@ pub enum CharacteristicError {
 }
 
 impl Characteristic {
-    /// The characteristic surfaces of the aspect with this boundary. Faces at limits of driven joints give none: all direct
-    /// solutions of their joint vectors lie on the same limit, not inside the aspect.
+    /// The characteristic surfaces of the aspect with this boundary. Faces at limits of driven joints give
+    /// none: all direct solutions of their joint vectors lie on the same limit, not inside the aspect.
     ///
     /// # Errors
-    /// [`CharacteristicError`] for slices, platforms without a direct model, and boundaries of another analysis.
+    /// [`CharacteristicError`] for slices, platforms without a direct model, and boundaries of another
+    /// analysis.
     pub fn new(analysis: &Analysis, boundary: &Boundary) -> Result<Self, CharacteristicError> {
         let platform = analysis.robot.platform;
         if !analysis.fixed.is_empty() {

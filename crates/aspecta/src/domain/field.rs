@@ -1,4 +1,5 @@
-//! The functions whose common positivity region is a class of aspects, in plain doubles, with their gradients.
+//! The functions whose common positivity region is a class of aspects, in plain doubles, with their
+//! gradients.
 
 use super::face::Face;
 use crate::aspect::{Analysis, DetSign, Place};
@@ -13,8 +14,8 @@ use nalgebra::{SMatrix, SVector};
 /// Most iterations of Newton's method.
 const STEPS: usize = 30;
 
-/// A class of aspects of one robot within its window. Poses are in the robot's coordinates; distances between them
-/// count each coordinate in widths of the window.
+/// A class of aspects of one robot within its window. Poses are in the robot's coordinates; distances between
+/// them count each coordinate in widths of the window.
 #[derive(Clone, Copy)]
 pub struct Field<'a, const D: usize, const N: usize> {
     /// The robot.
@@ -23,7 +24,7 @@ pub struct Field<'a, const D: usize, const N: usize> {
     pub mode: WorkingMode,
     /// The sign of det A.
     pub sign: DetSign,
-    /// What holds its workspace.
+    /// The window that holds its workspace.
     pub window: &'a Window,
 }
 
@@ -57,8 +58,8 @@ impl<const D: usize, const N: usize> Field<'_, D, N> {
         std::array::from_fn(|k| x[k] + t * d[k] * self.width(k))
     }
 
-    /// The first function that is not positive at x, `None` inside the class. What lies after a leg that does not
-    /// close is not looked at: det A does not exist there. `exempt` are not looked at either.
+    /// The first function that is not positive at x, `None` inside the class. What lies after a leg that does
+    /// not close is not looked at: det A does not exist there. `exempt` are not looked at either.
     pub fn violated(&self, x: &[f64; N], exempt: &[Option<Face>]) -> Option<Face> {
         let mut found = None;
         self.visit::<f64>(x, 0, |face, value| {
@@ -72,7 +73,8 @@ impl<const D: usize, const N: usize> Field<'_, D, N> {
         found
     }
 
-    /// Whether a leg is at its serial singularity, to the tolerance [`SINGULAR`]: rounding may then put it on either side.
+    /// Whether a leg is at its serial singularity, to the tolerance [`SINGULAR`]: rounding may then put it on
+    /// either side.
     pub fn is_folded(&self, x: &[f64; N]) -> bool {
         let mut folded = false;
         self.visit::<f64>(x, 0, |face, value| {
@@ -107,8 +109,8 @@ impl<const D: usize, const N: usize> Field<'_, D, N> {
         found
     }
 
-    /// Visits every function at `x`; the legs in the bit set `flat` are taken to be at their serial singularity, with
-    /// h = 0. `visit` returns whether to go on.
+    /// Visits every function at `x`; the legs in the bit set `flat` are taken to be at their serial
+    /// singularity, with h = 0. `visit` returns whether to go on.
     fn visit<T: Scalar>(&self, x: &[T; N], flat: u8, mut visit: impl FnMut(Face, T) -> bool) {
         for (k, &(lower, upper)) in self.window.cut.iter().enumerate() {
             let (lo, hi) = self.window.ranges[k];
@@ -162,8 +164,9 @@ impl<const D: usize, const N: usize> Field<'_, D, N> {
         sum.map(|g| g / size)
     }
 
-    /// The aspect of class number `class` in which x lies, strictly inside the class: that of the first place known to `analysis` on
-    /// a climb of U, which does not leave the class as far as samples show. `None` if there is none within ten times `cell`.
+    /// The aspect of class number `class` in which x lies, strictly inside the class: that of the first place
+    /// known to `analysis` on a climb of U, which does not leave the class as far as samples show. `None` if
+    /// there is none within ten times `cell`.
     pub fn aspect_of(&self, analysis: &Analysis, class: usize, x: &[f64; N], cell: f64) -> Option<usize> {
         const STEPS: usize = 40;
         let mut at = *x;
@@ -194,8 +197,8 @@ impl<const D: usize, const N: usize> Field<'_, D, N> {
         found
     }
 
-    /// How far x is from the surfaces of `faces`, in widths of the window: the largest |value| / ‖gradient‖. Infinite
-    /// where it cannot be told.
+    /// Returns how far x is from the surfaces of `faces`, in widths of the window: the largest |value| /
+    /// ‖gradient‖. Infinite where it cannot be told.
     pub fn offset(&self, x: &[f64; N], faces: &[Option<Face>; 3]) -> f64 {
         let relative = |j: &Jet<f64, N>| j.value.abs() / norm(&j.gradient);
         let values = self.linear(x, faces);
@@ -207,8 +210,8 @@ impl<const D: usize, const N: usize> Field<'_, D, N> {
         if far.is_finite() { far } else { f64::INFINITY }
     }
 
-    /// The nearest point to x where all functions of `faces` vanish, by Newton's method with least steps; it stays within
-    /// `reach` widths of x.
+    /// The nearest point to x where all functions of `faces` vanish, by Newton's method with least steps; it
+    /// stays within `reach` widths of x.
     pub fn project(&self, x: &[f64; N], faces: &[Option<Face>; 3], reach: f64) -> Option<[f64; N]> {
         let mut at = *x;
         let mut last = f64::INFINITY;
@@ -262,8 +265,8 @@ impl<const D: usize, const N: usize> Field<'_, D, N> {
         }
     }
 
-    /// g_s(X), extended by continuity: legs whose serial singularity is among `faces` have h = 0, as have those that
-    /// rounding puts beyond it. Angles in (−π, π].
+    /// g_s(X), extended by continuity: legs whose serial singularity is among `faces` have h = 0, as have
+    /// those that rounding puts beyond it. Angles in (−π, π].
     pub fn joints(&self, x: &[f64; N], faces: &[Option<Face>; 3]) -> [f64; N] {
         let placement = Placement::<f64, D>::at(self.robot.platform, x);
         let legs = closures::<f64, D, N>(self.robot, &placement);
@@ -286,8 +289,8 @@ impl<const D: usize, const N: usize> Field<'_, D, N> {
         (0..N).map(gap).fold(0.0, f64::max)
     }
 
-    /// The solution of f(X, q) = 0 near x, by Newton's method in displacements ([`moved`]).
-    /// `None` unless the steps, counted in widths of the window, shrink from the first on, each to a half at most.
+    /// The solution of f(X, q) = 0 near x, by Newton's method in displacements ([`moved`]). `None` unless the
+    /// steps, counted in widths of the window, shrink from the first on, each to a half at most.
     pub fn close(&self, x: &[f64; N], q: &[f64; N]) -> Option<[f64; N]> {
         let mut at = *x;
         let mut last = f64::INFINITY;

@@ -8,11 +8,12 @@ use std::f64::consts::TAU;
 /// Pose coordinates; those beyond the robot's are 0.
 pub type Pose = [f64; 6];
 
-/// How near the held coordinates of a pose are to their values if it lies on the slice: rad or length units, relative to values
-/// greater than 1.
+/// How near the held coordinates of a pose are to their values if it lies on the slice: rad or length units,
+/// relative to values greater than 1.
 const ON_SLICE: f64 = 1e-9;
 
-/// Nodes at the centres of equal cells that fill a box of poses, with up to three coordinates that vary (axes).
+/// Nodes at the centres of equal cells that fill a box of poses, with up to three coordinates that vary
+/// (axes).
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Grid {
     lo: [f64; 3],
@@ -24,7 +25,7 @@ pub struct Grid {
     wraps: [bool; 3],
     glued: [bool; 3],
     axes: usize,
-    /// What a slice holds; empty for whole workspaces, which alone are kept in files.
+    /// The coordinates that a slice fixes; empty for whole workspaces, which alone are kept in files.
     #[serde(skip)]
     held: Vec<Held>,
 }
@@ -35,13 +36,13 @@ struct Held {
     coordinate: usize,
     value: f64,
     angle: bool,
-    /// What counts as a cell along it, for poses that leave the slice.
+    /// The width that counts as a cell along it, for poses that leave the slice.
     cell: f64,
 }
 
 impl Grid {
-    /// Cells of about 1/`cells` of the window's width over `bounds`, where the window does not hold the coordinate. `whole` is the window
-    /// without anything held.
+    /// Cells of about 1/`cells` of the window's width over `bounds`, where the window does not hold the
+    /// coordinate. `whole` is the window without anything held.
     pub fn new(window: &Window, whole: &Window, bounds: &[(f64, f64)], cells: usize) -> Self {
         let width = |(lo, hi): (f64, f64)| hi - lo;
         let held = |(coordinate, value): (usize, f64)| {
@@ -105,7 +106,8 @@ impl Grid {
         self.axes + self.held.len()
     }
 
-    /// What counts as a cell along each coordinate, the held ones too; infinite beyond the last.
+    /// Returns the width that counts as a cell along each coordinate, the fixed ones too; infinite beyond the
+    /// last.
     pub fn cell(&self) -> Pose {
         let mut cell = [f64::INFINITY; 6];
         (0..self.axes).for_each(|axis| cell[self.coordinate(axis)] = self.step[axis]);
@@ -182,8 +184,8 @@ impl Grid {
         self.axes
     }
 
-    /// The nodes round a pose: the corners of the box of neighbouring nodes that holds it. Fewer at the edge of the grid, none off
-    /// the slice.
+    /// The nodes round a pose: the corners of the box of neighbouring nodes that holds it. Fewer at the edge
+    /// of the grid, none off the slice.
     pub fn around(&self, pose: &[f64], mut visit: impl FnMut(usize)) {
         if !self.is_on_slice(pose) {
             return;

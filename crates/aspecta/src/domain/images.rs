@@ -11,8 +11,8 @@ const CHUNK: usize = 1 << 12;
 impl Partition {
     /// For each region, the regions that poses with the same joint vector lie in.
     ///
-    /// Evidence are the nodes that lie, with all those poses, away from the characteristic surfaces by a cell; where a region has none,
-    /// all its nodes.
+    /// Evidence are the nodes that lie, with all those poses, away from the characteristic surfaces by a
+    /// cell; where a region has none, all its nodes.
     pub fn images(&self, regions: &[Region]) -> Images {
         let nodes = self.labels.grid.len();
         let look = |mut tallies: [Tally; 2], chunk: usize| {
@@ -40,7 +40,8 @@ impl Partition {
         let (mut images, mut sure) = (BTreeSet::new(), self.labels.is_inner(node));
         for other in self.others(node) {
             let other = &other[..self.labels.grid.dof()];
-            // A pose with the same joint vector has the same count; if the nodes round it do not, it lies in a sliver between them.
+            // A pose with the same joint vector has the same count; if the nodes round it do not, it lies in
+            // a sliver between them.
             let alike = |r: &u32| *r != OUTSIDE && regions[*r as usize].solutions == self.solutions[node];
             let round = self.labels.region_round(other).filter(alike);
             sure &= round.is_some();
@@ -52,7 +53,7 @@ impl Partition {
 
 type Tally = BTreeMap<u32, Seen>;
 
-/// What the nodes of a region show.
+/// The images seen at the nodes of a region.
 #[derive(Clone, Debug, Default)]
 struct Seen {
     nodes: usize,

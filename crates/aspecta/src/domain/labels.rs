@@ -1,4 +1,4 @@
-//! What is known of an aspect once it is cut up: a region at every node of a grid.
+//! The regions of an aspect as labels: one at every node of a grid.
 
 use super::grid::{Grid, Pose};
 use super::sheet::Sheet;
@@ -16,8 +16,8 @@ const REACH: usize = 2;
 pub struct Labels {
     /// The grid, over the aspect's box.
     pub grid: Grid,
-    /// The region of each node, from 0: resolved ones (with a node all of whose neighbours are in it too) before others, the larger first;
-    /// [`OUTSIDE`] outside the aspect.
+    /// The region of each node, from 0: resolved ones (with a node all of whose neighbours are in it too)
+    /// before others, the larger first; [`OUTSIDE`] outside the aspect.
     pub region: Vec<u32>,
 }
 
@@ -29,7 +29,8 @@ impl Labels {
         alike + 1 == 3usize.pow(self.grid.axes() as u32)
     }
 
-    /// The region that all nodes round a pose lie in, if it is one and the same (or none of them in the aspect).
+    /// The region that all nodes round a pose lie in, if it is one and the same (or none of them in the
+    /// aspect).
     pub fn region_round(&self, pose: &[f64]) -> Option<u32> {
         let (mut found, mut same, mut corners) = (None, true, 0);
         self.grid.around(pose, |node| {
@@ -46,8 +47,9 @@ impl Labels {
         found
     }
 
-    /// The region of a pose of the aspect: that of a node at most two cells away to which a straight segment stays in the aspect with the
-    /// other poses moving continuously. `solutions` says how many direct solutions a region has, if known.
+    /// The region of a pose of the aspect: that of a node at most two cells away to which a straight segment
+    /// stays in the aspect with the other poses moving continuously. `solutions` says how many direct
+    /// solutions a region has, if known.
     pub fn region_of(
         &self,
         sheet: &Sheet<'_>,
@@ -65,7 +67,8 @@ impl Labels {
         near.map(|(node, to)| is_open(node, to)).find_map(|region| region)
     }
 
-    /// The nodes of the aspect at most two cells from the cell of a pose, the nearest first, with their poses next to it.
+    /// The nodes of the aspect at most two cells from the cell of a pose, the nearest first, with their poses
+    /// next to it.
     pub(super) fn nearest(&self, pose: &[f64]) -> Vec<(usize, Pose)> {
         let (from, cell) = (padded(pose), self.grid.cell());
         let mut centre = None;

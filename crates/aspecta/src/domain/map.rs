@@ -34,7 +34,7 @@ pub struct Map {
     pub robot: Robot,
     /// The box that holds its workspace.
     pub window: Window,
-    /// What measures are of.
+    /// The quantity that is measured, and its unit.
     pub unit: Measure,
     /// Certified bounds on the number of its aspects.
     pub aspects: Count,
@@ -61,11 +61,11 @@ pub struct MappedClass {
 pub struct MappedAspect {
     /// Its regions.
     pub domains: Domains,
-    /// What pictures need besides, if it was computed.
+    /// The surfaces that pictures need besides, if they were computed.
     pub surfaces: Option<Surfaces>,
 }
 
-/// Where a pose is, in a working mode.
+/// The location of a pose in a working mode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Location {
     /// The working mode.
@@ -121,7 +121,7 @@ impl Map {
         self.sheets.iter().map(|sheet| &sheet.domains).find(|domains| domains.aspect == aspect)
     }
 
-    /// Where `pose` is, taken in the working mode `mode` of the robot; angles count modulo 2π.
+    /// Returns the location of `pose` in the working mode `mode` of the robot; angles count modulo 2π.
     ///
     /// # Errors
     /// [`Nowhere`] if it is in no aspect.

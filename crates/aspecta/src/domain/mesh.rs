@@ -11,9 +11,10 @@ use serde::{Deserialize, Serialize};
 pub struct Mesh {
     /// The vertices: poses, on a slice their coordinates that vary.
     pub vertices: Vec<Vec<f64>>,
-    /// Per vertex of a characteristic surface, the pose on the boundary with the same joint vector; empty for a boundary.
+    /// Per vertex of a characteristic surface, the pose on the boundary with the same joint vector; empty for
+    /// a boundary.
     pub sources: Vec<Vec<f64>>,
-    /// What joins them: [`Boundary::simplices`] or [`Characteristic::simplices`].
+    /// The simplices that join them: [`Boundary::simplices`] or [`Characteristic::simplices`].
     pub simplices: Vec<Simplex>,
 }
 
@@ -41,7 +42,7 @@ pub struct Surfaces {
     pub boundary: Mesh,
     /// Its characteristic surfaces.
     pub characteristic: Mesh,
-    /// What is missing of these.
+    /// The parts of these that were given up.
     pub given_up: GivenUp,
 }
 

@@ -1,11 +1,13 @@
 //! Section 4 of the paper: the largest domains of the workspace in which a joint vector means one pose.
 //!
-//! An aspect may hold several poses of one joint vector. Its characteristic surfaces (Def. 9) are where such a pose enters or leaves
-//! it; they cut it into basic regions (Def. 10), on each of which the number of direct solutions in the aspect is constant; the
-//! images of two basic regions, their basic components (Def. 11), coincide or are disjoint. Unions of adjacent regions with disjoint images are the
-//! uniqueness domains (Theorem 3).
+//! An aspect may hold several poses of one joint vector. Its characteristic surfaces (Def. 9) are where such
+//! a pose enters or leaves it; they cut it into basic regions (Def. 10), on each of which the number of
+//! direct solutions in the aspect is constant; the images of two basic regions, their basic components (Def.
+//! 11), coincide or are disjoint. Unions of adjacent regions with disjoint images are the uniqueness domains
+//! (Theorem 3).
 //!
-//! The regions are numerical: sets of nodes of a grid, true to a cell. [`cusps`], where three direct solutions meet, are certified.
+//! The regions are numerical: sets of nodes of a grid, true to a cell. [`cusps`], where three direct
+//! solutions meet, are certified.
 
 mod analysis;
 pub mod boundary;

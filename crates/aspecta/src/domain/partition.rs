@@ -20,7 +20,7 @@ pub struct Partition {
     pub labels: Labels,
     /// n(X) per node: direct solutions of g(X) in the aspect, X among them; 0 outside the aspect.
     pub solutions: Vec<u8>,
-    /// Where the other poses of each node begin in `others`, and where they end.
+    /// The indices in `others` at which the other poses of each node begin and end.
     first: Vec<u32>,
     others: Vec<Pose>,
     /// Nodes at which the direct model failed: they count as having one solution.
@@ -32,8 +32,8 @@ pub struct Partition {
 pub struct Region {
     /// Nodes in it.
     pub nodes: usize,
-    /// Nodes in it all of whose neighbours are too. None: the set is thinner than two cells, and may be part of another region, which it
-    /// touches between the nodes.
+    /// Nodes in it all of whose neighbours are too. None: the set is thinner than two cells, and may be part
+    /// of another region, which it touches between the nodes.
     pub inner: usize,
     /// n(X) there.
     pub solutions: u8,
@@ -49,8 +49,9 @@ impl Region {
 }
 
 impl Partition {
-    /// Finds the direct solutions at every node, and joins the nodes that are one region: neighbours whose other poses with the same joint
-    /// vector move continuously from one node's to the other's, so that none enters or leaves the aspect between them.
+    /// Finds the direct solutions at every node, and joins the nodes that are one region: neighbours whose
+    /// other poses with the same joint vector move continuously from one node's to the other's, so that none
+    /// enters or leaves the aspect between them.
     pub fn new(sheet: &Sheet<'_>, grid: Grid, control: &Control<'_>) -> Self {
         let nodes = grid.len();
         let mut partition = Self {
@@ -129,8 +130,8 @@ impl Partition {
         }
     }
 
-    /// Joins the sets in which the other poses lie that a walk through one set leads through: where that set is wide, theirs
-    /// may be too narrow for the grid.
+    /// Joins the sets in which the other poses lie that a walk through one set leads through: where that set
+    /// is wide, theirs may be too narrow for the grid.
     fn join_others(&self, sets: &mut UnionFind) {
         let nodes = self.labels.grid.len();
         let any_node: BTreeMap<u32, usize> = (0..nodes)
@@ -173,8 +174,8 @@ impl Partition {
         inside.iter().for_each(|&node| self.labels.region[node] = label[&self.labels.region[node]]);
     }
 
-    /// Joins sets that are too thin to be resolved with others of the same count, where a straight segment to a node at most two cells
-    /// away stays in the aspect and keeps the count.
+    /// Joins sets that are too thin to be resolved with others of the same count, where a straight segment to
+    /// a node at most two cells away stays in the aspect and keeps the count.
     fn join_slivers(&self, sheet: &Sheet<'_>, sets: &mut UnionFind, control: &Control<'_>) {
         let thin: Vec<bool> = self.regions().iter().map(|region| !region.is_resolved()).collect();
         let nodes: Vec<usize> = (0..self.labels.grid.len())
@@ -199,8 +200,8 @@ impl Partition {
         joins.into_iter().for_each(|(a, b)| sets.union(a as u32, b as u32));
     }
 
-    /// What the other poses of a node become along the segment to another, looked at in 2^`depth` parts at least; `None` if they do not
-    /// move continuously.
+    /// Returns the matching of the other poses of two nodes along the segment between them, looked at in
+    /// 2^`depth` parts at least; `None` if they do not move continuously.
     fn way(&self, sheet: &Sheet<'_>, from: usize, to: usize, depth: u32) -> Option<Match> {
         let start = (self.labels.grid.pose(from), self.others(from));
         let end = (self.labels.grid.turned_to(&self.labels.grid.pose(from), to), self.others(to));

@@ -64,7 +64,7 @@ pub struct Domains {
     pub mode: WorkingMode,
     /// The sign of det A in it.
     pub det_a: DetSign,
-    /// What all measures are of, and their unit.
+    /// The quantity that is measured, and its unit.
     #[serde(skip_deserializing)]
     pub unit: Measure,
     /// Width of a cell, per coordinate.
@@ -73,7 +73,7 @@ pub struct Domains {
     pub measure: f64,
     /// Its basic regions, largest first.
     pub regions: Vec<BasicRegion>,
-    /// What is thinner than two cells and could not be joined to a region.
+    /// The nodes in parts thinner than two cells, which could not be joined to a region.
     pub unresolved: Unresolved,
     /// Pairs of regions (numbered from 1) that touch.
     pub adjacent: Vec<(usize, usize)>,
@@ -107,7 +107,7 @@ impl Domains {
         self.region_on(&Sheet::new(analysis, self.aspect)?, pose)
     }
 
-    /// The same, the aspect being given.
+    /// Returns the number of the basic region of `pose`, as [`Self::region_at`] does, on the aspect given.
     pub(super) fn region_on(&self, sheet: &Sheet<'_>, pose: &[f64]) -> Option<usize> {
         let solutions = |region: u32| self.regions.get(region as usize).map(|found| found.solutions);
         let region = self.labels.region_of(sheet, solutions, pose)?;

@@ -1,4 +1,5 @@
-//! One generalized aspect as a function: its poses, their joint vectors, and the other poses with the same joint vector.
+//! One generalized aspect as a function: its poses, their joint vectors, and the other poses with the same
+//! joint vector.
 
 use super::field::Field;
 use super::grid::{Grid, Pose};
@@ -19,12 +20,13 @@ pub type Joints = [f64; 6];
 
 /// An aspect A_ij: the poses of WA_ij, and g_i on them.
 ///
-/// Whether a pose lies in the class (working mode and sign of det A) is computed in doubles, hence numerical at distances from its
-/// boundary that rounding blurs. Which aspect of the class it lies in is certified ([`Analysis::aspect_at`]), except that where the
-/// analysis found one aspect only, the whole class counts as it.
+/// Whether a pose lies in the class (working mode and sign of det A) is computed in doubles, hence numerical
+/// at distances from its boundary that rounding blurs. Which aspect of the class it lies in is certified
+/// ([`Analysis::aspect_at`]), except that where the analysis found one aspect only, the whole class counts as
+/// it.
 ///
-/// On a slice an aspect is one of the slice's, while the other poses with a joint vector are those of the whole class, most of them
-/// outside the slice.
+/// On a slice an aspect is one of the slice's, while the other poses with a joint vector are those of the
+/// whole class, most of them outside the slice.
 pub struct Sheet<'a> {
     robot: &'a Robot,
     window: &'a Window,
@@ -39,7 +41,8 @@ pub struct Sheet<'a> {
 pub(super) type Belongs<'a> = Box<dyn Fn(&[f64]) -> bool + Sync + 'a>;
 
 impl<'a> Sheet<'a> {
-    /// The aspect with the given [`crate::aspect::Aspect::id`]. `None` if there is none, and on a slice of a robot that nothing else bounds.
+    /// The aspect with the given [`crate::aspect::Aspect::id`]. `None` if there is none, and on a slice of a
+    /// robot that nothing else bounds.
     pub fn new(analysis: &'a Analysis, id: usize) -> Option<Self> {
         let (class, _) = analysis.aspect(id)?;
         let Analysis { robot, window, classes, .. } = analysis;
@@ -93,8 +96,8 @@ impl<'a> Sheet<'a> {
         self.belongs.as_ref().is_none_or(|belongs| belongs(pose)).then_some(joints)
     }
 
-    /// g_i(X), if X may be one of the other poses of the aspect: on a slice, of the class. Poses at a serial singularity, which
-    /// the direct model finds to rounding, are on its boundary.
+    /// g_i(X), if X may be one of the other poses of the aspect: on a slice, of the class. Poses at a serial
+    /// singularity, which the direct model finds to rounding, are on its boundary.
     fn other_joints(&self, pose: &[f64]) -> Option<Joints> {
         let joints = match &self.whole {
             Some(whole) => self.joints_within(whole, pose),
@@ -109,8 +112,8 @@ impl<'a> Sheet<'a> {
         within.then(|| for_platform!(self.robot.platform, in_class(self, window, pose)))?
     }
 
-    /// Visits the other poses X′ of the aspect with g_i(X′) = q = g_i(X). False if the direct model fails: a joint vector with
-    /// infinitely many poses, or poses of which none is X.
+    /// Visits the other poses X′ of the aspect with g_i(X′) = q = g_i(X). False if the direct model fails: a
+    /// joint vector with infinitely many poses, or poses of which none is X.
     pub fn others(&self, pose: &[f64], joints: &Joints, mut visit: impl FnMut(&[f64])) -> bool {
         let robot = self.robot;
         let Ok(poses) = robot.direct_poses(&joints[..robot.dof()]) else { return false };
@@ -145,10 +148,12 @@ impl<'a> Sheet<'a> {
         of_aspect.map(padded).collect()
     }
 
-    /// Follows the other poses with the joint vectors along a segment from one end to the other: which of `of_b` each of `of_a` becomes.
+    /// Follows the other poses with the joint vectors along a segment from one end to the other: which of
+    /// `of_b` each of `of_a` becomes.
     ///
-    /// They must move continuously: by at most [`Sheet::STRIDE`] cells between points of the segment, 2^`parts` or as many more as it takes, but no
-    /// nearer each other than 2^−[`Sheet::FINEST`] of it. `None` where they do not: one of them leaves the aspect, or another enters it.
+    /// They must move continuously: by at most [`Sheet::STRIDE`] cells between points of the segment,
+    /// 2^`parts` or as many more as it takes, but no nearer each other than 2^−[`Sheet::FINEST`] of it.
+    /// `None` where they do not: one of them leaves the aspect, or another enters it.
     pub fn follow(
         &self,
         grid: &Grid,
@@ -190,7 +195,8 @@ impl<'a> Sheet<'a> {
         Some(first.iter().map(|&i| second[i]).collect())
     }
 
-    /// Which pose of `to` each of `from` is nearest to, if each is so near that it can have moved there, and no two to one.
+    /// Returns which pose of `to` each of `from` is nearest to, if each is so near that it can have moved
+    /// there, and no two to one.
     fn nearest(&self, grid: &Grid, from: &[Pose], to: &[Pose]) -> Option<Match> {
         let cell = grid.cell();
         let gap = |x: &Pose, y: &Pose| self.apart(x, y, &cell[..grid.dof()]);
@@ -212,8 +218,9 @@ impl<'a> Sheet<'a> {
         self.apart(a, b, &width[..a.len()])
     }
 
-    /// The greatest difference of two poses, coordinate by coordinate in its own `unit`, full turns not counted. Turns in space count by
-    /// their angle, in the least of the units of their coordinates: at the poles of the pitch these say little.
+    /// The greatest difference of two poses, coordinate by coordinate in its own `unit`, full turns not
+    /// counted. Turns in space count by their angle, in the least of the units of their coordinates: at the
+    /// poles of the pitch these say little.
     fn apart(&self, a: &[f64], b: &[f64], unit: &[f64]) -> f64 {
         let angles = &self.whole().angles;
         let part = |k: usize| {
@@ -229,8 +236,8 @@ impl<'a> Sheet<'a> {
         (0..moves.len()).map(part).fold(turn, f64::max)
     }
 
-    /// Whether the joint vector `found` of a pose in this mode is the one asked for, leg by leg nearer to it than that of the
-    /// other posture.
+    /// Whether the joint vector `found` of a pose in this mode is the one asked for, leg by leg nearer to it
+    /// than that of the other posture.
     fn is_posture(&self, pose: &[f64], found: &Joints, asked: &Joints) -> bool {
         let robot = self.robot;
         let turned_over = for_platform!(robot.platform, turned_over(self, pose));

@@ -5,12 +5,13 @@ use std::collections::BTreeSet;
 /// Most sets looked at: beyond it the list is not complete.
 const MOST: usize = 100_000;
 
-/// All maximal connected sets of regions no two of which are in conflict, each in ascending order, and whether these are all.
+/// Returns all maximal connected sets of regions no two of which are in conflict, each in ascending order,
+/// and whether these are all.
 ///
-/// A region in conflict with itself is in none. A maximal such set is a connected component of some maximal set without
-/// conflicts: enlarge it to one; its component that holds the set is connected and without conflicts, hence no greater. So
-/// the components of all maximal sets without conflicts are formed (Bron and Kerbosch's search, with Tomita's pivots), and those that lie in
-/// another dropped.
+/// A region in conflict with itself is in none. A maximal such set is a connected component of some maximal
+/// set without conflicts: enlarge it to one; its component that holds the set is connected and without
+/// conflicts, hence no greater. So the components of all maximal sets without conflicts are formed (Bron and
+/// Kerbosch's search, with Tomita's pivots), and those that lie in another dropped.
 pub fn maximal_sets(
     regions: usize,
     adjacent: &BTreeSet<(usize, usize)>,

@@ -144,7 +144,7 @@ pub struct CuspRound {
     pub turns: i32,
 }
 
-/// Where the number of direct solutions changes along a motion.
+/// Returns the folds of a motion: the places at which its number of direct solutions changes.
 pub fn folds(robot: &Robot, plan: &Plan) -> Vec<Fold> {
     let count = |q: &[f64]| robot.direct_poses(q).map(|poses| poses.len());
     let mut found = Vec::new();
@@ -205,7 +205,7 @@ pub fn cusps_round(robot: &Robot, plan: &Plan, control: &Control<'_>) -> Result<
     Ok(cusps(robot, &options, control)?.cusps.into_iter().filter_map(round).collect())
 }
 
-/// How often a closed polygon goes round the origin.
+/// Returns how often a closed polygon goes round the origin.
 fn winding(points: impl Iterator<Item = [f64; 2]>) -> i32 {
     let angles: Vec<f64> = points.map(|[x, y]| y.atan2(x)).collect();
     let turned: f64 = angles.windows(2).map(|ends| without_turns(ends[1] - ends[0])).sum();

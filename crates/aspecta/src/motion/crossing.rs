@@ -1,9 +1,10 @@
 //! Changes of working mode: a leg goes through its serial singularity while det A ≠ 0.
 //!
-//! Where H_j = 0 the two postures of leg j are one configuration, so the aspects of two modes that differ in leg j alone may meet there.
-//! A [`Crossing`] is proved by [`along`] with a leg that crosses: from a pose inside both aspects the platform goes straight to where the
-//! leg is stretched (or folded) and comes back in the other posture, and det A keeps its sign all the while, which det A does with
-//! every crossing: aspects of different signs are never joined so.
+//! Where H_j = 0 the two postures of leg j are one configuration, so the aspects of two modes that differ in
+//! leg j alone may meet there. A [`Crossing`] is proved by [`along`] with a leg that crosses: from a pose
+//! inside both aspects the platform goes straight to where the leg is stretched (or folded) and comes back in
+//! the other posture, and det A keeps its sign all the while, which det A does with every crossing: aspects
+//! of different signs are never joined so.
 
 use crate::aspect::{Analysis, DetSign, Place};
 use aspecta_kinematics::constraints::{Demand, Margins, measures};
@@ -23,7 +24,7 @@ const INSETS: [f64; 6] = [1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2];
 /// Candidates between two aspects that are tried.
 const TRIED: usize = 40;
 
-/// Where the robot can change one leg's posture.
+/// A configuration in which the robot can change one leg's posture.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Crossing {
     /// The leg, from 1.
@@ -36,7 +37,8 @@ pub struct Crossing {
     pub aspects: [usize; 2],
     /// The pose at which the leg is in its serial singularity. Numerical.
     pub pose: Vec<f64>,
-    /// A pose in both aspects; on the straight segment from here to `beyond`, which runs through `pose`, the crossing is proved.
+    /// A pose in both aspects; on the straight segment from here to `beyond`, which runs through `pose`, the
+    /// crossing is proved.
     pub inside: Vec<f64>,
     /// A pose that the leg does not reach (proved).
     pub beyond: Vec<f64>,
@@ -44,8 +46,8 @@ pub struct Crossing {
     pub clearance: f64,
 }
 
-/// The best crossing found between every two aspects of an analysis that differ in one leg's posture, by aspect numbers and leg. That there
-/// is no other is not proved.
+/// The best crossing found between every two aspects of an analysis that differ in one leg's posture, by
+/// aspect numbers and leg. That there is no other is not proved.
 pub fn crossings(analysis: &Analysis) -> Vec<Crossing> {
     let classes = &analysis.classes;
     let pairs = |j: usize| {
@@ -66,8 +68,9 @@ pub fn crossings(analysis: &Analysis) -> Vec<Crossing> {
 }
 
 impl Crossing {
-    /// Whether intervals prove it: from `inside` towards `beyond` det A keeps its sign, and limits are kept, in both postures of the leg, until
-    /// it comes to its serial singularity ([`along`]); and the margins, but for that leg's own.
+    /// Whether intervals prove it: from `inside` towards `beyond` det A keeps its sign, and limits are kept,
+    /// in both postures of the leg, until it comes to its serial singularity ([`along`]); and the margins,
+    /// but for that leg's own.
     pub fn is_proved(&self, robot: &Robot, margins: Margins) -> bool {
         let class = Demand::class(self.modes[0], self.det_a.factor());
         let demand = Demand { crossing: Some(self.leg - 1), margins, ..class };
@@ -128,7 +131,8 @@ impl Side<'_> {
         hi - lo
     }
 
-    /// The pose next to `from` with H_j = 0, by Newton's method, not further than `near`, if the other constraints hold there.
+    /// The pose next to `from` with H_j = 0, by Newton's method, not further than `near`, if the other
+    /// constraints hold there.
     fn nearest_singularity<const D: usize, const N: usize>(
         &self,
         from: &[f64; N],

@@ -1,4 +1,5 @@
-//! Motion: paths checked against singularities, between their samples too; paths planned, and timed under joint limits; solutions followed in a control loop.
+//! Motion: paths checked against singularities, between their samples too; paths planned, and timed under
+//! joint limits; solutions followed in a control loop.
 
 pub mod assembly;
 pub mod crossing;

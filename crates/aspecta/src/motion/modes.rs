@@ -184,7 +184,7 @@ pub enum NoRoute {
     NotFound {
         /// The [`crate::aspect::Aspect::id`] of the start.
         start: usize,
-        /// That of the goal.
+        /// The aspect of the goal.
         goal: usize,
         /// The margins asked for.
         margins: Margins,
@@ -293,8 +293,8 @@ impl Planner<'_> {
     }
 }
 
-/// What the ends of a motion through working modes tell before any aspects are known: that both lie in a class, and the sign of det A, which is the
-/// same at both.
+/// Returns what the ends of a motion through working modes show before any aspects are known: that both lie
+/// in a class, and the sign of det A, which is the same at both.
 ///
 /// # Errors
 /// [`NoRoute`]: what is wrong with an end, or that signs of det A differ, which proves that there is no motion.
@@ -351,7 +351,7 @@ impl Route {
 }
 
 impl Crossing {
-    /// To the singularity in `mode` and back in the other. The leg's joint goes like the root of the distance left, so its samples
+    /// Returns the samples to the singularity in `mode` and back in the other. The leg's joint goes like the root of the distance left, so its samples
     /// are even in that root.
     fn samples(&self, mode: WorkingMode) -> Vec<(Vec<f64>, WorkingMode)> {
         let other = mode.with_other_posture(self.leg - 1);
@@ -362,7 +362,8 @@ impl Crossing {
         (0..=2 * SAMPLES).map(sample).collect()
     }
 
-    /// The same crossing with its angles turned by full turns so that `inside` is as given (a full turn from what it was).
+    /// Returns the crossing with its angles turned by full turns so that `inside` is as given (a full turn
+    /// from what it was).
     fn turned_to(&self, inside: &[f64]) -> Self {
         let moved = |pose: &[f64]| {
             pose.iter().zip(inside).zip(&self.inside).map(|((x, to), from)| x + (to - from)).collect()

@@ -3,8 +3,9 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// The way from `start` to `goal`, both included, over `count` spots. `edges` names the neighbours of a spot and what it costs to go there, `ahead`
-/// what the rest of the way is taken to cost: the way is the cheapest if it is never more than that. `None` if there is no way.
+/// The way from `start` to `goal`, both included, over `count` spots. `edges` names the neighbours of a spot
+/// and what it costs to go there, `ahead` what the rest of the way is taken to cost: the way is the cheapest
+/// if it is never more than that. `None` if there is no way.
 pub(super) fn cheapest_way(
     count: usize,
     [start, goal]: [u32; 2],

@@ -50,7 +50,8 @@ pub enum Holds {
     NotWhole {
         /// The pose.
         pose: Vec<f64>,
-        /// What fails there; `None` if it lies in another aspect, or beyond the window that the robot file sets.
+        /// The constraint that fails there; `None` if it lies in another aspect, or beyond the window that
+        /// the robot file sets.
         #[serde(serialize_with = "constraints::if_any")]
         constraint: Option<Constraint>,
     },
@@ -61,7 +62,7 @@ pub enum Holds {
     },
 }
 
-/// What one class is to a set.
+/// The relation of one class to a set of poses.
 #[derive(Clone, Debug, Serialize)]
 pub struct ClassHolds {
     /// The working mode.
@@ -73,7 +74,7 @@ pub struct ClassHolds {
     pub holds: Holds,
 }
 
-/// Where a set can be traversed.
+/// The aspects in which a set of poses can be traversed.
 #[derive(Clone, Debug, Serialize)]
 pub struct Traversability {
     /// The set.
@@ -94,7 +95,7 @@ pub struct LinkedAspects {
     pub certified: bool,
 }
 
-/// Which aspects hold a set, and, if there is a graph, which groups of aspects.
+/// Returns which aspects hold a set, and, if there is a graph, which groups of aspects.
 ///
 /// # Errors
 /// [`KinematicsError`] if a pose does not fit the robot.
@@ -218,7 +219,8 @@ fn over_parts(analysis: &Analysis, class: usize, demand: &Demand, parts: &[Vec<V
     Holds::Whole { aspect: common.and_then(|(_, aspect)| aspect) }
 }
 
-/// Where a path leaves the class, or may. A path of one pose is a segment that stands still.
+/// Returns the place at which a path leaves the class, or may. A path of one pose is a segment that stands
+/// still.
 fn leaves_class(robot: &Robot, demand: &Demand, path: &[Vec<f64>]) -> Option<Holds> {
     (0..path.len().saturating_sub(1).max(1)).find_map(|k| {
         let (start, end) = (&path[k], &path[(k + 1).min(path.len() - 1)]);

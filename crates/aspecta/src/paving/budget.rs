@@ -88,7 +88,7 @@ pub enum Stop {
 }
 
 impl Stop {
-    /// Of two, the one that left more undone.
+    /// Returns, of two, the one that left more undone.
     pub(crate) fn worse(self, other: Self) -> Self {
         if (other as u8) > self as u8 { other } else { self }
     }

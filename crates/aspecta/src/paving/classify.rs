@@ -1,4 +1,4 @@
-//! What intervals prove of eight boxes at once, in every working mode.
+//! Classification of eight boxes at once by intervals, in every working mode.
 
 use super::ClassSet;
 use super::MODES;
@@ -13,8 +13,8 @@ use aspecta_kinematics::{LegSet, WorkingMode};
 use aspecta_robot::num::{Interval, LANES, Mask, Pack, Scalar, Slope, each};
 use aspecta_robot::{Robot, Window};
 
-/// One coordinate of the boxes of one level, for every index along it: computed once a level where the level is well filled,
-/// so that no sine is evaluated in the inner loop.
+/// One coordinate of the boxes of one level, for every index along it: computed once a level where the level
+/// is well filled, so that no sine is evaluated in the inner loop.
 #[derive(Clone, Copy)]
 struct Slab {
     range: Interval,
@@ -35,8 +35,8 @@ impl Slab {
     }
 }
 
-/// Classifies the boxes of one level of a paving. D: dimension of space; N: degrees of freedom; M: coordinates
-/// that vary.
+/// Classifies the boxes of one level of a paving. D: dimension of space; N: degrees of freedom; M:
+/// coordinates that vary.
 pub(super) struct Classifier<'a, const D: usize, const N: usize, const M: usize> {
     robot: &'a Robot,
     modes: &'a [WorkingMode],
@@ -45,14 +45,15 @@ pub(super) struct Classifier<'a, const D: usize, const N: usize, const M: usize>
     charts: &'a [Chart],
     window: &'a Window,
     depth: u32,
-    /// Slabs by coordinate and index; a coordinate that does not vary has one, a level that is nearly empty has none.
+    /// Slabs by coordinate and index; a coordinate that does not vary has one, a level that is nearly empty
+    /// has none.
     slabs: [Vec<Slab>; N],
     /// The coordinate each axis of the paving stands for.
     axes: [usize; M],
 }
 
 impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M> {
-    /// For `boxes` boxes at `depth`.
+    /// Prepares to classify `boxes` boxes at `depth`.
     pub(super) fn new(
         robot: &'a Robot,
         paving: &'a Paving,
@@ -162,7 +163,8 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
         let mut known = ByMode { kept: [closes; MODES], broken: [[false; LANES]; MODES] };
         for constraint in Constraint::of(self.robot) {
             match constraint.kind() {
-                // Looked at in poses already; in a leg's own coordinates being in the posture is one of its limits.
+                // Looked at in poses already; in a leg's own coordinates being in the posture is one of its
+                // limits.
                 Kind::Serial(j) => {
                     let Some(fold) = &legs[j].fold else { continue };
                     let in_posture = |mode: WorkingMode| if mode.sign(j) > 0 { fold.b } else { -fold.b };
@@ -200,7 +202,7 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
     }
 }
 
-/// What is proved of the existence of each mode.
+/// The proofs of the existence of each mode, eight boxes at once.
 struct ByMode {
     /// All legs close and all limits are kept.
     kept: [Mask; MODES],
@@ -209,8 +211,8 @@ struct ByMode {
 }
 
 impl ByMode {
-    /// Takes account of a function that is positive within a limit, for the modes wanted; it is evaluated once for each choice of
-    /// postures of the legs on which it depends.
+    /// Takes account of a function that is positive within a limit, for the modes wanted; it is evaluated
+    /// once for each choice of postures of the legs on which it depends.
     fn note<const M: usize>(
         &mut self,
         modes: &[WorkingMode],
@@ -241,7 +243,8 @@ fn modes_of(classes: ClassSet) -> u8 {
 }
 
 impl Node {
-    /// Records what is proved of mode `m` here: that it exists all over the box, or nowhere; the sign of det A.
+    /// Records what is proved of mode `m` here: that it exists all over the box, or nowhere; the sign of det
+    /// A.
     fn settle(&mut self, m: usize, exists: bool, nowhere: bool, positive: bool, negative: bool) {
         let both: ClassSet = 3 << (2 * m);
         let open = self.undecided & both;

@@ -15,7 +15,8 @@ use aspecta_robot::{Robot, Window};
 /// Parents one task subdivides.
 const CHUNK: usize = 256;
 
-/// Runs a function generic over (D, N, M) — the dimension of space, the degrees of freedom, the coordinates that vary.
+/// Runs a function generic over (D, N, M) — the dimension of space, the degrees of freedom, the coordinates
+/// that vary.
 macro_rules! for_paving {
     ($robot:expr, $axes:expr, $f:ident ( $($arg:expr),* $(,)? )) => {
         match ($robot.platform.space(), $robot.dof(), $axes) {
@@ -37,8 +38,8 @@ macro_rules! for_paving {
 pub(crate) use for_paving;
 
 impl Paving {
-    /// Paves `window`, in pose coordinates, for up to [`MODES`] working modes of a robot, up to 3 of whose coordinates vary: every box
-    /// in which something is undecided is subdivided, to the depth of the budget.
+    /// Paves `window`, in pose coordinates, for up to [`MODES`] working modes of a robot, up to 3 of whose
+    /// coordinates vary: every box in which something is undecided is subdivided, to the depth of the budget.
     ///
     /// Deterministic, whatever the number of threads, unless a time budget or a cancellation ends it.
     ///
@@ -98,8 +99,8 @@ impl Paving {
         }
     }
 
-    /// Subdivides leaves, given in the order of their indices, and classifies their children; `charts` are those
-    /// that cover part of this one. False if `stop` ended it before all were done.
+    /// Subdivides leaves, given in the order of their indices, and classifies their children; `charts` are
+    /// those that cover part of this one. False if `stop` ended it before all were done.
     pub fn split(
         &mut self,
         robot: &Robot,

@@ -12,14 +12,14 @@ type Offset = [i8; 3];
 
 impl Paving {
     /// Visits every pair of boxes of a set (boxes as in [`Paving::boxes_of`]) that share a point.
-    pub fn touching(&self, sight: &impl Fn(&Node) -> Mark, visit: &mut impl FnMut(u32, u32)) {
+    pub fn touching(&self, classify: &impl Fn(&Node) -> Mark, visit: &mut impl FnMut(u32, u32)) {
         let walk = Walk { paving: self, steps: Steps::new(self.axes.len()) };
-        walk.within(0, sight, visit);
+        walk.within(0, classify, visit);
         let glued: Vec<bool> = self.axes.iter().map(|&k| self.window.glued[k]).collect();
         // The window's neighbour across each set of glued axes is the window itself.
         for wrap in offsets(self.axes.len()).filter(is_first) {
             if (0..self.axes.len()).all(|a| wrap[a] == 0 || glued[a]) {
-                walk.between(0, 0, number(wrap), sight, visit);
+                walk.between(0, 0, number(wrap), classify, visit);
             }
         }
     }
@@ -32,16 +32,16 @@ struct Walk<'a> {
 
 impl Walk<'_> {
     /// Pairs inside one node.
-    fn within(&self, at: u32, sight: &impl Fn(&Node) -> Mark, visit: &mut impl FnMut(u32, u32)) {
+    fn within(&self, at: u32, classify: &impl Fn(&Node) -> Mark, visit: &mut impl FnMut(u32, u32)) {
         let node = &self.paving.nodes[at as usize];
-        if node.first_child == 0 || sight(node) != Mark::Open {
+        if node.first_child == 0 || classify(node) != Mark::Open {
             return;
         }
         for child in self.paving.children(at) {
-            self.within(child, sight, visit);
+            self.within(child, classify, visit);
         }
         for &(i, j, offset) in &self.steps.siblings {
-            self.between(node.first_child + i, node.first_child + j, offset, sight, visit);
+            self.between(node.first_child + i, node.first_child + j, offset, classify, visit);
         }
     }
 
@@ -51,11 +51,11 @@ impl Walk<'_> {
         a: u32,
         b: u32,
         offset: usize,
-        sight: &impl Fn(&Node) -> Mark,
+        classify: &impl Fn(&Node) -> Mark,
         visit: &mut impl FnMut(u32, u32),
     ) {
         let (node_a, node_b) = (&self.paving.nodes[a as usize], &self.paving.nodes[b as usize]);
-        let (mark_a, mark_b) = (sight(node_a), sight(node_b));
+        let (mark_a, mark_b) = (classify(node_a), classify(node_b));
         if mark_a == Mark::Outside || mark_b == Mark::Outside {
             return;
         }
@@ -68,16 +68,16 @@ impl Walk<'_> {
             (true, false) => {
                 self.steps.behind[offset]
                     .iter()
-                    .for_each(|j| self.between(a, first_b + j, offset, sight, visit));
+                    .for_each(|j| self.between(a, first_b + j, offset, classify, visit));
             }
             (false, true) => {
                 self.steps.ahead[offset]
                     .iter()
-                    .for_each(|i| self.between(first_a + i, b, offset, sight, visit));
+                    .for_each(|i| self.between(first_a + i, b, offset, classify, visit));
             }
             (false, false) => {
                 for &(i, j, finer) in &self.steps.both[offset] {
-                    self.between(first_a + i, first_b + j, finer, sight, visit);
+                    self.between(first_a + i, first_b + j, finer, classify, visit);
                 }
             }
         }
@@ -147,12 +147,12 @@ fn offset(n: usize) -> Offset {
     [n % 3, n / 3 % 3, n / 9].map(|digit| digit as i8 - 1)
 }
 
-/// All offsets that are zero beyond the dimension.
+/// Returns all offsets that are zero beyond the dimension.
 fn offsets(dimension: usize) -> impl Iterator<Item = Offset> {
     (0..27).map(offset).filter(move |o| o[dimension..].iter().all(|&x| x == 0))
 }
 
-/// Of an offset and its opposite, one: the first non-zero entry is +1.
+/// Returns one of an offset and its opposite: that whose first non-zero entry is +1.
 fn is_first(offset: &Offset) -> bool {
     offset.iter().find(|&&x| x != 0) == Some(&1)
 }

@@ -19,7 +19,8 @@ pub struct Node {
     pub inside: ClassSet,
     /// Classes that are undecided.
     pub undecided: ClassSet,
-    /// Classes that have no summit here: no aspect of the class is highest in this box, proved (`docs/theory.md`, 5).
+    /// Classes that have no summit here: no aspect of the class is highest in this box, proved
+    /// (`docs/theory.md`, 5).
     pub summitless: ClassSet,
     /// Modes (one bit each) that exist all over the box: every H_j > 0 and every limit kept, proved.
     pub closed: u8,
@@ -27,11 +28,12 @@ pub struct Node {
     pub depth: u8,
     /// Whether the chart of a fold covers all configurations of the box.
     pub covered: bool,
-    /// Charts that cover part of this one (one bit each, in their order) and may hold some configurations of the box.
+    /// Charts that cover part of this one (one bit each, in their order) and may hold some configurations of
+    /// the box.
     pub partly: u16,
 }
 
-/// What a node is to a set of poses that is being looked at.
+/// The classification of a node with respect to a set of poses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
     /// The closed box lies in the set: proved.
@@ -69,11 +71,11 @@ impl Node {
 /// A box in pose coordinates: lower and upper corner.
 pub type BoxOf = ([f64; 3], [f64; 3]);
 
-/// A window cut into boxes: a tree whose every node has 2^M children or none, M = 1, 2 or 3 being the number of
-/// coordinates that vary.
+/// A window cut into boxes: a tree whose every node has 2^M children or none, M = 1, 2 or 3 being the number
+/// of coordinates that vary.
 #[derive(Clone, Debug)]
 pub struct Paving {
-    /// What the coordinates are.
+    /// The coordinates that are subdivided.
     pub chart: Chart,
     /// The box of coordinates that was paved.
     pub window: Window,
@@ -150,31 +152,36 @@ impl Paving {
         }
     }
 
-    /// Visits the boxes of a set that are not outside it: the coarsest ones inside it, and leaves in which it is
-    /// undecided. In the order of the tree, depth first.
-    pub fn boxes_of(&self, sight: &impl Fn(&Node) -> Mark, visit: &mut impl FnMut(u32)) {
-        self.walk(0, sight, visit);
+    /// Visits the boxes of a set that are not outside it: the coarsest ones inside it, and leaves in which it
+    /// is undecided. In the order of the tree, depth first.
+    pub fn boxes_of(&self, classify: &impl Fn(&Node) -> Mark, visit: &mut impl FnMut(u32)) {
+        self.walk(0, classify, visit);
     }
 
-    fn walk(&self, at: u32, sight: &impl Fn(&Node) -> Mark, visit: &mut impl FnMut(u32)) {
-        match sight(&self.nodes[at as usize]) {
+    fn walk(&self, at: u32, classify: &impl Fn(&Node) -> Mark, visit: &mut impl FnMut(u32)) {
+        match classify(&self.nodes[at as usize]) {
             Mark::Outside => {}
             Mark::Inside => visit(at),
             Mark::Open if self.nodes[at as usize].first_child == 0 => visit(at),
-            Mark::Open => self.children(at).for_each(|child| self.walk(child, sight, visit)),
+            Mark::Open => self.children(at).for_each(|child| self.walk(child, classify, visit)),
         }
     }
 
-    /// Visits the boxes of a set (as in [`Paving::boxes_of`]) that may share a point with a box of poses, modulo full turns
-    /// where these are glued.
-    pub fn meeting(&self, sight: &impl Fn(&Node) -> Mark, poses: &[Interval], visit: &mut impl FnMut(u32)) {
-        self.descend(0, sight, poses, visit);
+    /// Visits the boxes of a set (as in [`Paving::boxes_of`]) that may share a point with a box of poses,
+    /// modulo full turns where these are glued.
+    pub fn meeting(
+        &self,
+        classify: &impl Fn(&Node) -> Mark,
+        poses: &[Interval],
+        visit: &mut impl FnMut(u32),
+    ) {
+        self.descend(0, classify, poses, visit);
     }
 
     fn descend(
         &self,
         at: u32,
-        sight: &impl Fn(&Node) -> Mark,
+        classify: &impl Fn(&Node) -> Mark,
         poses: &[Interval],
         visit: &mut impl FnMut(u32),
     ) {
@@ -183,10 +190,10 @@ impl Paving {
         if !meets {
             return;
         }
-        match sight(&self.nodes[at as usize]) {
+        match classify(&self.nodes[at as usize]) {
             Mark::Outside => {}
             Mark::Open if self.nodes[at as usize].first_child != 0 => {
-                self.children(at).for_each(|child| self.descend(child, sight, poses, visit));
+                self.children(at).for_each(|child| self.descend(child, classify, poses, visit));
             }
             Mark::Open | Mark::Inside => visit(at),
         }
@@ -198,7 +205,8 @@ impl Paving {
         self.on_all_axes(poses, |a, x| lo[a] <= x.lo && x.hi <= hi[a])
     }
 
-    /// Whether something is so of the range of a box along each axis, modulo full turns where the axis is glued.
+    /// Whether `holds` is true of the range of a box along every axis, modulo full turns where the axis is
+    /// periodic.
     fn on_all_axes(&self, ranges: &[Interval], holds: impl Fn(usize, Interval) -> bool) -> bool {
         let turn = Interval::PI * Interval::point(2.0);
         self.axes.iter().enumerate().all(|(a, &k)| {
@@ -207,11 +215,11 @@ impl Paving {
         })
     }
 
-    /// The box (as in [`Paving::boxes_of`], or one outside the set) that holds the pose, and whether the pose lies in
-    /// it by more than rounding, so that it surely holds it. `None` outside the window, and off the slice if
-    /// coordinates are held.
-    pub fn find(&self, sight: &impl Fn(&Node) -> Mark, pose: &[f64]) -> Option<(u32, bool)> {
-        self.descend_to(pose, &mut |at| sight(&self.nodes[at as usize]) != Mark::Open)
+    /// The box (as in [`Paving::boxes_of`], or one outside the set) that holds the pose, and whether the pose
+    /// lies in it by more than rounding, so that it surely holds it. `None` outside the window, and off the
+    /// slice if coordinates are held.
+    pub fn find(&self, classify: &impl Fn(&Node) -> Mark, pose: &[f64]) -> Option<(u32, bool)> {
+        self.descend_to(pose, &mut |at| classify(&self.nodes[at as usize]) != Mark::Open)
     }
 
     /// The first box on the way down to the pose at which `stop` holds, or the leaf, as in [`Paving::find`].

@@ -1,4 +1,4 @@
-//! Where the bounds on the number of aspects are apart, in the words and units of people.
+//! Wording of the places where the bounds on the number of aspects are apart, in units for people.
 
 use crate::aspect::{Analysis, Doubt};
 use aspecta_kinematics::parallel_rods::ParallelRods;
@@ -21,8 +21,8 @@ impl Coordinate {
     }
 }
 
-/// The place of a doubt, in the coordinates that vary: those of the pose, or where a leg is folded its own instead of the platform's
-/// translations.
+/// The place of a doubt, in the coordinates that vary: those of the pose, or where a leg is folded its own
+/// instead of the platform's translations.
 pub fn place(robot: &Robot, doubt: &Doubt) -> Vec<Coordinate> {
     let length = &robot.length_unit;
     let unit = |angle: bool| Some(if angle { "rad" } else { length }.to_owned());
@@ -34,7 +34,7 @@ pub fn place(robot: &Robot, doubt: &Doubt) -> Vec<Coordinate> {
     all.filter(|c| c.range.0 < c.range.1).collect()
 }
 
-/// What is said of a robot that is singular wherever it goes.
+/// The message about a robot that is singular at every pose.
 pub const ARCHITECTURE: &str = "det A vanishes at every pose that was looked at (numerical): with all actuators locked the platform still moves, wherever it is. \
      Two legs may be one and the same, or joints lie in one point or line. Such a robot has no aspects.";
 

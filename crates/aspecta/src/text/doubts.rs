@@ -1,4 +1,4 @@
-//! Where the bounds on the number of aspects are apart, and why, in 100 columns.
+//! Text on where the bounds on the number of aspects are apart, and why, in 100 columns.
 
 use super::doubt::{largest_first, place, reasons};
 use super::{Advice, Align, Table, brief, paragraph};
@@ -62,7 +62,7 @@ fn about(analysis: &Analysis, doubt: &Doubt) -> String {
     doubt.fold.map_or(middle.clone(), |leg| format!("leg {leg} folded, {middle}"))
 }
 
-/// As many names as there is room for, and the number of the others.
+/// Returns as many names as there is room for, and the number of the others.
 fn names(all: &[String]) -> String {
     let mut text = String::new();
     for (k, name) in all.iter().enumerate() {

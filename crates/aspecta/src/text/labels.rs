@@ -31,7 +31,7 @@ impl Labels {
         Self { units: angles.iter().map(unit).collect(), names, angles, degrees }
     }
 
-    /// Those of some coordinates, by index.
+    /// Returns the labels of some coordinates, by index.
     pub fn only(mut self, which: &[usize]) -> Self {
         self.names = which.iter().map(|&k| self.names[k].clone()).collect();
         self.angles = which.iter().map(|&k| self.angles[k]).collect();
@@ -64,7 +64,8 @@ impl Labels {
     }
 }
 
-/// The unit of det A: every row of A is a length, every moment a length more; numbers for robots that only turn.
+/// The unit of det A: every row of A is a length, every moment a length more; numbers for robots that only
+/// turn.
 pub fn det_a_unit(robot: &Robot) -> String {
     let coordinates = robot.platform.coordinates();
     let angles = coordinates.iter().filter(|c| c.angle).count();

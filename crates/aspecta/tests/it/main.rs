@@ -7,6 +7,7 @@ mod aspects;
 mod catalogue;
 mod characteristic;
 mod check;
+mod conformance;
 mod counts;
 mod cusps;
 mod direct;

@@ -4,8 +4,8 @@ use crate::direct::projective::{Point, Quadrics};
 use nalgebra::Complex;
 use std::sync::LazyLock;
 
-/// Numbers, one complex number a pair: a line of coefficients a leg, then a line of eight coordinates a point. Written by the test
-/// `tests::the_start_system_is_found_from_one_point`.
+/// Numbers, one complex number a pair: a line of coefficients a leg, then a line of eight coordinates a
+/// point. Written by the test `tests::the_start_system_is_found_from_one_point`.
 const DATA: &str = include_str!("start.txt");
 
 type Start = (Quadrics<8, 7>, Vec<Point<8>>);
@@ -28,8 +28,8 @@ pub(super) fn points() -> &'static [Point<8>] {
     &START.1
 }
 
-/// The member of the family with these coefficients, 17 a leg: of the ten products of the eᵢ, of six eᵢ gⱼ − eⱼ gᵢ, and of g · g; and the Study
-/// quadric.
+/// The member of the family with these coefficients, 17 a leg: of the ten products of the eᵢ, of six eᵢ gⱼ −
+/// eⱼ gᵢ, and of g · g; and the Study quadric.
 fn member(legs: &[Vec<Complex<f64>>]) -> Quadrics<8, 7> {
     let mut system = Quadrics::ZERO;
     for (form, leg) in system.forms.iter_mut().zip(legs) {
@@ -95,7 +95,8 @@ mod tests {
         (legs, x)
     }
 
-    /// Monodromy: along loops of systems through generic ones the points of a system change places, until all have been met.
+    /// Monodromy: along loops of systems through generic ones the points of a system change places, until all
+    /// have been met.
     fn all_points(base: &Quadrics<8, 7>, first: Point<8>, random: &mut Random) -> Vec<Point<8>> {
         let mut points = vec![polish(base, first)];
         for _ in 0..40 {

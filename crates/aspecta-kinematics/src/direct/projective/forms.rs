@@ -35,9 +35,9 @@ impl<const V: usize, const F: usize> Quadrics<V, F> {
     }
 }
 
-/// The systems (1 − t) start + t target, t ∈ [0, 1]. Where both belong to a linear family whose members have the same number of
-/// common points but for an algebraic subset, and the start is generic, so have all of t < 1: the subset has complex codimension one
-/// and misses almost every segment of real dimension one.
+/// The systems (1 − t) start + t target, t ∈ [0, 1]. Where both belong to a linear family whose members have
+/// the same number of common points but for an algebraic subset, and the start is generic, so have all of t <
+/// 1: the subset has complex codimension one and misses almost every segment of real dimension one.
 pub(crate) struct Family<'a, const V: usize, const F: usize> {
     pub start: &'a Quadrics<V, F>,
     pub target: &'a Quadrics<V, F>,
@@ -60,8 +60,8 @@ impl<const V: usize, const F: usize> Family<'_, V, F> {
         }
     }
 
-    /// target − start at a common point x of the system at t. There start and target are multiples of one another, so either will do: the
-    /// one with the greater weight.
+    /// target − start at a common point x of the system at t. There start and target are multiples of one
+    /// another, so either will do: the one with the greater weight.
     #[inline(always)]
     pub(super) fn change(&self, t: f64, x: &Point<V>) -> [Complex<f64>; F] {
         let (system, factor) = if t < 0.5 { (self.target, 1.0 / (1.0 - t)) } else { (self.start, -1.0 / t) };

@@ -3,7 +3,8 @@
 use super::Point;
 use nalgebra::Complex;
 
-/// A matrix, factorised by elimination with row pivoting: the rows of U with the multipliers of L to their left, in the order `rows`.
+/// A matrix, factorised by elimination with row pivoting: the rows of U with the multipliers of L to their
+/// left, in the order `rows`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Factors<const V: usize> {
     matrix: [Point<V>; V],

@@ -2,8 +2,8 @@
 
 use nalgebra::Complex;
 
-/// V complex numbers: homogeneous coordinates, or a tangent. Real and imaginary parts lie apart, so that loops over them compile to
-/// vector instructions.
+/// V complex numbers: homogeneous coordinates, or a tangent. Real and imaginary parts lie apart, so that
+/// loops over them compile to vector instructions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Point<const V: usize> {
     pub re: [f64; V],
@@ -80,7 +80,8 @@ impl<const V: usize> Point<V> {
         self.norm_squared().sqrt()
     }
 
-    /// The same point with norm 1 and its largest coordinate positive, so that a real point has real coordinates.
+    /// Returns the point with norm 1 and its largest coordinate positive, so that a real point has real
+    /// coordinates.
     pub fn normalised(&self) -> Self {
         let largest = (0..V).map(|k| self.get(k)).max_by(|a, b| a.norm_sqr().total_cmp(&b.norm_sqr()));
         let largest = largest.unwrap_or_default();

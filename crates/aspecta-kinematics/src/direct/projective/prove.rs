@@ -18,15 +18,17 @@ pub(crate) struct Proved<const V: usize> {
 pub(crate) type Enclosed<const V: usize, const F: usize> = [[[Interval; V]; V]; F];
 
 impl<const V: usize> Proved<V> {
-    /// Proves that F = V − 1 quadrics have exactly one common point near the approximate one `x`, for all coefficients in `forms`.
+    /// Proves that F = V − 1 quadrics have exactly one common point near the approximate one `x`, for all
+    /// coefficients in `forms`.
     ///
-    /// *Theorem* (Kantorovich's idea; Moore's test in its a priori form). Let P be the map of the V − 1 forms and x̄ · y − 1, Y any matrix, and
+    /// *Theorem* (Kantorovich's idea; Moore's test in its a priori form). Let P be the map of the V − 1 forms
+    /// and x̄ · y − 1, Y any matrix, and
     ///
     /// > η ≥ ‖Y P(x)‖,  κ ≥ ‖I − Y P′(x)‖,  μ ≥ ‖Y P″‖
     ///
-    /// in the maximum norm. If η + κ r + μ r²/2 < r and κ + μ r < 1, then T(y) = y − Y P(y) maps the closed ball of radius r round x into
-    /// itself and contracts it, because T′(y) = I − Y P′(x) − Y P″ (y − x), P″ being constant: it holds exactly one zero of Y P, and
-    /// Y is regular because κ < 1.
+    /// in the maximum norm. If η + κ r + μ r²/2 < r and κ + μ r < 1, then T(y) = y − Y P(y) maps the closed
+    /// ball of radius r round x into itself and contracts it, because T′(y) = I − Y P′(x) − Y P″ (y − x), P″
+    /// being constant: it holds exactly one zero of Y P, and Y is regular because κ < 1.
     ///
     /// If x and the coefficients are real the ball is its own conjugate, so its only point is real.
     pub fn near<const F: usize>(
@@ -117,7 +119,8 @@ fn enclose<const V: usize, const F: usize>(
     (values, gradients, bends)
 }
 
-/// Whether two proved points are different points of projective space: some minor of their coordinates is not zero.
+/// Whether two proved points are different points of projective space: some minor of their coordinates is not
+/// zero.
 pub(crate) fn differ<const V: usize>(a: &Proved<V>, b: &Proved<V>) -> bool {
     let (x, y) = (a.coordinates(), b.coordinates());
     let size = |k: usize| a.centre.get(k).norm_sqr();

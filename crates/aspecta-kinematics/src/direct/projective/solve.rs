@@ -12,7 +12,7 @@ pub(crate) struct Problem<'a, const V: usize, const F: usize> {
     start: &'a Quadrics<V, F>,
     /// Its common points.
     points: &'a [Point<V>],
-    /// What the coefficients lie in,
+    /// The enclosures of the coefficients,
     forms: Enclosed<V, F>,
     /// and their midpoints.
     target: Quadrics<V, F>,
@@ -61,7 +61,8 @@ impl<'a, const V: usize, const F: usize> Problem<'a, V, F> {
         found
     }
 
-    /// The common points next to real points that are good approximations; `None` if two of them come out as one.
+    /// The common points next to real points that are good approximations; `None` if two of them come out as
+    /// one.
     pub fn near(&self, points: &[Point<V>]) -> Option<Ends<V>> {
         let mut ends = Ends::new();
         for x in points {
@@ -91,7 +92,7 @@ fn as_real<const V: usize, const F: usize>(target: &Quadrics<V, F>, x: Point<V>)
     if distance(&real, &x) <= 10.0 * off + SAME { real } else { x }
 }
 
-/// Between points of norm one: the sine of their angle.
+/// Returns the sine of the angle between points of norm one.
 fn distance<const V: usize>(a: &Point<V>, b: &Point<V>) -> f64 {
     let mut gap = *a;
     gap.add_scaled(-b.conjugate().dot(a), b);

@@ -23,13 +23,13 @@ impl Pace {
     pub const PATIENT: Self = Self { correction: 1e-5, last: 1e-9, longest: 0.01 };
 }
 
-/// Where a path was followed to.
+/// The end to which a path was followed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct End<const V: usize> {
     /// The last point, of norm one.
     pub point: Point<V>,
-    /// Whether it is a regular point at t = 1, to rounding. Otherwise the path could not be followed to its end: two of them meet there,
-    /// or it leaves the regular points of the family.
+    /// Whether it is a regular point at t = 1, to rounding. Otherwise the path could not be followed to its
+    /// end: two of them meet there, or it leaves the regular points of the family.
     pub arrived: bool,
 }
 
@@ -127,8 +127,8 @@ impl<'a, const V: usize, const F: usize> Tracker<'a, V, F> {
         lost(here.x)
     }
 
-    /// Newton's method from x at t, in the chart of `patch`: the point with its derivative, and the first correction. `None` if that
-    /// is more than the pace allows, or the next ones do not shrink.
+    /// Newton's method from x at t, in the chart of `patch`: the point with its derivative, and the first
+    /// correction. `None` if that is more than the pace allows, or the next ones do not shrink.
     #[inline(always)]
     fn correct(&mut self, t: f64, mut x: Point<V>, patch: &Point<V>, pace: Pace) -> Option<(Here<V>, f64)> {
         self.family.mix(t, &mut self.system);
@@ -198,7 +198,8 @@ fn right_side<const V: usize, const F: usize>(values: &[Complex<f64>; F], patch:
     b
 }
 
-/// The point at t on the cubic through two points of the path with their derivatives; on the tangent, if there is only one.
+/// The point at t on the cubic through two points of the path with their derivatives; on the tangent, if
+/// there is only one.
 #[inline(always)]
 fn predict<const V: usize>(here: &Here<V>, before: Option<&Here<V>>, t: f64) -> Point<V> {
     let mut x = here.x;
@@ -223,7 +224,7 @@ fn predict<const V: usize>(here: &Here<V>, before: Option<&Here<V>>, t: f64) -> 
     x
 }
 
-/// The same point and derivative in another chart.
+/// Returns the point and derivative in another chart.
 fn in_patch<const V: usize>(here: &Here<V>, patch: &Point<V>) -> Here<V> {
     let scale = patch.dot(&here.x).inv();
     let x = here.x.scaled(scale);

@@ -21,7 +21,7 @@ fn solutions<'a>(model: &Planar<'a>) -> Vec<Located<3>> {
     all
 }
 
-/// What becomes of an honest stretch to `NEXT` once a fault is planted in it.
+/// Returns the verdict on an honest stretch to `NEXT` in which a fault was planted.
 fn planted(
     model: &Planar<'_>,
     start: &Located<3>,

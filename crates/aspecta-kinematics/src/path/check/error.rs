@@ -10,7 +10,7 @@ pub enum PathError {
     /// Too few samples.
     #[error("a path needs at least {wanted}, but {found} given")]
     TooShort {
-        /// What is needed.
+        /// The number needed.
         wanted: &'static str,
         /// Samples given.
         found: usize,
@@ -20,7 +20,7 @@ pub enum PathError {
     Sample {
         /// Row, from 1.
         row: usize,
-        /// What is wrong.
+        /// The fault of the sample.
         error: KinematicsError,
     },
     /// The mode does not fit the robot.
@@ -38,9 +38,9 @@ pub enum PathError {
     Margin {
         /// The margin asked for.
         value: f64,
-        /// Of what.
+        /// The quantity.
         of: &'static str,
-        /// What it has to stay below.
+        /// The bound that it has to stay below.
         below: &'static str,
     },
     /// The first pose is out of reach.

@@ -9,17 +9,20 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Joined {
-    /// By straight segments in pose (or joint) coordinates, angles as real numbers: a turn from 3 to −3 rad goes the long way.
+    /// By straight segments in pose (or joint) coordinates, angles as real numbers: a turn from 3 to −3 rad
+    /// goes the long way.
     #[default]
     Straight,
-    /// By one cubic spline, twice continuously differentiable, over the lengths of the chords: each coordinate is divided by the robot's
-    /// characteristic length, or by a radian. Samples that repeat the one before are passed over. Its ends are not-a-knot: four samples give one cubic, three a parabola.
+    /// By one cubic spline, twice continuously differentiable, over the lengths of the chords: each
+    /// coordinate is divided by the robot's characteristic length, or by a radian. Samples that repeat the
+    /// one before are passed over. Its ends are not-a-knot: four samples give one cubic, three a parabola.
     Spline,
     /// Not at all: nothing is known between them.
     None,
 }
 
-/// One curve from each sample to the next; for [`Joined::None`] one that stays, at each sample. `units` make coordinates comparable.
+/// Returns one curve from each sample to the next; for [`Joined::None`] one that stays, at each sample.
+/// `units` make coordinates comparable.
 pub(super) fn join(samples: &[Vec<f64>], units: &[f64], joined: Joined) -> Vec<Curve> {
     match joined {
         Joined::Straight => samples.windows(2).map(|w| Curve::segment(&w[0], &w[1])).collect(),

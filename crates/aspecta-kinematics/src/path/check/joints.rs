@@ -70,7 +70,7 @@ pub fn check_joints(
     })
 }
 
-/// What makes joint coordinates numbers of order one.
+/// Returns the units in which joint coordinates are of order one.
 fn units(robot: &Robot) -> Vec<f64> {
     let length = robot.characteristic_length();
     robot.legs.iter().map(|leg| if leg.actuator.is_angle() { 1.0 } else { length }).collect()
@@ -108,31 +108,31 @@ impl Joints<'_> {
         self.curve.at(t)[..self.dof].to_vec()
     }
 
-    /// How far joint vectors may be from the straight segment between the doubles at both ends, at the same share of the way: rounding there, and
-    /// h²/8 times the second derivative.
-    fn sag(&self, from: f64, to: f64) -> Vec<f64> {
+    /// Returns how far joint vectors may be from the straight segment between the doubles at both ends, at
+    /// the same share of the way: rounding there, and h²/8 times the second derivative.
+    fn deviation(&self, from: f64, to: f64) -> Vec<f64> {
         let bend = self.curve.bend(Interval::new(from, to));
         let rounded = |t: f64, k: usize| {
             let exact = self.curve.over::<6>(Interval::point(t))[k].range;
             (exact - Interval::point(self.curve.at(t)[k])).magnitude()
         };
         let h = Interval::point(to) - Interval::point(from);
-        let sag = |k| (h * h * Interval::point(0.125) * Interval::point(bend[k])).hi;
-        (0..self.dof).map(|k| 1.001 * (sag(k) + rounded(from, k).max(rounded(to, k)))).collect()
+        let deviation = |k| (h * h * Interval::point(0.125) * Interval::point(bend[k])).hi;
+        (0..self.dof).map(|k| 1.001 * (deviation(k) + rounded(from, k).max(rounded(to, k)))).collect()
     }
 
     /// Follows it, from `follower` at `from`.
     fn follow(&self, follower: &mut Follower, from: f64, to: f64) -> Result<Survey, Refusal> {
-        follower.survey(&self.at(to), &self.sag(from, to))
+        follower.survey(&self.at(to), &self.deviation(from, to))
     }
 }
 
-/// What is known so far of one thing asked.
+/// The verdict so far on one demand.
 #[derive(Default)]
 struct Verdict {
-    /// Where it is proved to fail, or cannot be told because the path ends.
+    /// The place where it is proved to fail, or cannot be told because the path ends.
     failed: Option<Obstacle>,
-    /// Where it was first in doubt.
+    /// The place where it was first in doubt.
     doubt: Option<Obstacle>,
 }
 
@@ -226,7 +226,7 @@ impl<'a> Walk<'a> {
         true
     }
 
-    /// What is asked of a stretch: functions that are > 0 where it is met.
+    /// Returns the functions that are > 0 where the demand on a stretch is met.
     fn demands(&self, asked: Asked, survey: &Survey) -> Vec<(Constraint, Interval)> {
         let margins = if asked == Asked::Margin { self.options.margins } else { Default::default() };
         if asked == Asked::Limit {
@@ -244,7 +244,7 @@ impl<'a> Walk<'a> {
         all
     }
 
-    /// What is asked and not known to fail.
+    /// Returns the demands that are not known to fail.
     fn pending(&self) -> Vec<(usize, Asked)> {
         let asked = self.asked.iter().enumerate();
         let left = asked.filter(|(k, (_, is))| *is && self.verdicts[*k].failed.is_none());
@@ -322,7 +322,7 @@ impl JointStretch<'_> {
     }
 }
 
-/// What is known where the solution is not proved.
+/// The enclosures where the solution is not proved: anything.
 const NOTHING: Measures = [Interval { lo: 0.0, hi: f64::INFINITY }; 8];
 
 fn measures(survey: &Survey) -> Measures {

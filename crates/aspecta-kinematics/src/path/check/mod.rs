@@ -26,7 +26,7 @@ use serde::Serialize;
 /// Interval evaluations a segment may take before its check is given up as undecided.
 const EFFORT: usize = 200_000;
 
-/// What a path is, besides its samples, and what is asked of it.
+/// The way in which a path's samples are joined, and the demands on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct PathOptions {
     /// How its samples are joined.
@@ -35,7 +35,7 @@ pub struct PathOptions {
     pub margins: Margins,
 }
 
-/// What was found of a path.
+/// The result of checking a path.
 #[derive(Clone, Debug, Serialize)]
 pub struct PathCheck {
     /// How its samples were joined. With [`Joined::None`] all that is said is of the samples alone.
@@ -47,13 +47,13 @@ pub struct PathCheck {
     pub singularity_free: Option<bool>,
     /// Whether it is proved to keep the margins asked for. `Some(true)` if none are; `None` also where a singularity comes first.
     pub keeps_margins: Option<bool>,
-    /// The same for joint limits; `Some(true)` if the robot has none.
+    /// Whether it stays within joint limits, likewise; `Some(true)` if the robot has none.
     pub within_limits: Option<bool>,
     /// The margins asked for.
     pub margins: Margins,
     /// The first place at which something fails or cannot be decided.
     pub obstacle: Option<Obstacle>,
-    /// Where other things fail further on, each for the first time.
+    /// The places where other demands fail further on, each for the first time.
     pub further: Vec<Obstacle>,
     /// How near it comes to singularities, up to the first it meets. Certified. `None` if there is no path before that.
     pub clearance: Option<Clearance>,
@@ -66,7 +66,7 @@ pub struct PathCheck {
 }
 
 impl PathCheck {
-    /// What the first obstacles to each [`Asked`], in its order, come to; the rest is empty.
+    /// Returns the check with the first obstacles to each [`Asked`], in its order; the rest is empty.
     fn new(mode: WorkingMode, options: &PathOptions, found: [Option<Obstacle>; 3]) -> Self {
         let verdict = |o: &Option<Obstacle>| match o {
             None => Some(true),
@@ -100,7 +100,7 @@ impl PathCheck {
     }
 }
 
-/// What is asked of every configuration.
+/// A demand on every configuration of a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Asked {
@@ -112,10 +112,10 @@ pub enum Asked {
     Limit,
 }
 
-/// Where a path fails, or is in doubt.
+/// The place where a path fails, or is in doubt.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Obstacle {
-    /// What was asked.
+    /// The demand that fails.
     pub asked: Asked,
     /// Segment, from 1 (the sample, where samples are not joined).
     pub segment: usize,
@@ -123,7 +123,8 @@ pub struct Obstacle {
     pub t: (f64, f64),
     /// Pose at the middle of the stretch; of joint vectors, at its start.
     pub pose: Vec<f64>,
-    /// What fails there; in JSON `{"kind": "det A"}`, `{"kind": "reach", "leg"}` or `{"kind": "limit", "leg", "limit"}`, counted from 1.
+    /// The constraint that fails; in JSON `{"kind": "det A"}`, `{"kind": "reach", "leg"}` or `{"kind":
+    /// "limit", "leg", "limit"}`, counted from 1.
     #[serde(serialize_with = "constraints::constraint")]
     pub constraint: Constraint,
     /// Whether the failure is proved (else undecided).
@@ -191,7 +192,7 @@ pub fn check_path(robot: &Robot, poses: &[Vec<f64>], mode: WorkingMode) -> Resul
 ///
 /// # Examples
 /// ```
-/// use aspecta_kinematics::demand::Margins;
+/// use aspecta_kinematics::constraints::Margins;
 /// use aspecta_kinematics::path::{Joined, PathOptions, check_poses};
 /// use aspecta_robot::catalogue;
 ///

@@ -11,7 +11,8 @@ use serde::Serialize;
 const SAMPLES: usize = 2000;
 /// and of one.
 const OF_SEGMENT: (usize, usize) = (4, 100);
-/// A joint that turns further than this (rad) between two samples is looked at more finely, to count full turns right.
+/// A joint that turns further than this (rad) between two samples is looked at more finely, to count full
+/// turns right.
 const TURN: f64 = 1.0;
 
 /// One sample of figure 11.

@@ -6,7 +6,7 @@ use crate::path::spline::{Point, Spline};
 const STEPS: f64 = 1000.0;
 /// Bisections that find a double.
 const BISECTIONS: usize = 100;
-/// Where on a step limits are asked for: between these q̈ is one parabola.
+/// The places on a step at which limits are imposed: between these q̈ is one parabola.
 pub(super) const AT: [f64; 3] = [0.0, 0.5, 1.0];
 
 /// One step: s̈ is the same all along it.
@@ -14,7 +14,7 @@ pub(super) const AT: [f64; 3] = [0.0, 0.5, 1.0];
 pub(super) struct Step {
     /// The spline's piece it lies on.
     pub piece: usize,
-    /// Where it starts, s,
+    /// Its start, s,
     pub start: f64,
     /// and its length.
     pub length: f64,
@@ -30,7 +30,7 @@ impl Step {
         (self.speed2 + 2.0 * share * self.length * self.rate).max(0.0)
     }
 
-    /// How long it takes.
+    /// Returns how long it takes.
     pub fn time(&self) -> f64 {
         2.0 * self.length / (self.speed2.sqrt() + self.speed2_at(1.0).sqrt())
     }
@@ -49,8 +49,8 @@ impl Step {
     }
 }
 
-/// The fastest steps along a spline whose coordinates may change by 1 a second at most, and by `acceleration` a second squared; from rest to
-/// rest.
+/// The fastest steps along a spline whose coordinates may change by 1 a second at most, and by `acceleration`
+/// a second squared; from rest to rest.
 pub(super) fn fastest(spline: &Spline, acceleration: &[f64]) -> Vec<Step> {
     let mut steps = cut(spline);
     let rows: Vec<_> = steps.iter().map(|step| Rows::new(spline, step, acceleration)).collect();
@@ -116,7 +116,8 @@ impl Rows {
         Self { length: step.length, both, one }
     }
 
-    /// The s̈ that are allowed at ṡ² = `x`, if ṡ² at the end is to be at most `next`: [low, high], low > high if there are none.
+    /// The s̈ that are allowed at ṡ² = `x`, if ṡ² at the end is to be at most `next`: [low, high], low > high
+    /// if there are none.
     fn rates(&self, x: f64, next: f64) -> [f64; 2] {
         let gain = 2.0 * self.length;
         let mut range = [-x / gain, (next - x) / gain];
@@ -139,7 +140,8 @@ impl Rows {
         range
     }
 
-    /// The greatest ṡ² at the start at which there is an s̈. What is allowed is convex and holds (0, 0): bisection finds it.
+    /// The greatest ṡ² at the start at which there is an s̈. What is allowed is convex and holds (0, 0):
+    /// bisection finds it.
     fn greatest(&self, next: f64) -> f64 {
         let is_allowed = |x: f64| {
             let [low, high] = self.rates(x, next);

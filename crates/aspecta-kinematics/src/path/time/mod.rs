@@ -37,12 +37,12 @@ pub struct Piece {
     pub samples: Vec<Waypoint>,
 }
 
-/// What the joints can do, each > 0, one per joint.
+/// Limits of the joints' speed and acceleration, each > 0, one per joint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JointLimits {
-    /// Of |q̇|, in the unit of the joint per second.
+    /// The greatest |q̇|, in the unit of the joint per second.
     pub speed: Vec<f64>,
-    /// Of |q̈|, in the unit of the joint per second squared.
+    /// The greatest |q̈|, in the unit of the joint per second squared.
     pub acceleration: Vec<f64>,
 }
 
@@ -56,7 +56,7 @@ pub enum TimeError {
         what: &'static str,
         /// From 1.
         joint: usize,
-        /// What was given.
+        /// The value given.
         value: f64,
     },
     /// Wrong number of limits.

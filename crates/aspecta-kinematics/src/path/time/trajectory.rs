@@ -6,7 +6,7 @@ use crate::path::spline::{Point, Spline};
 use aspecta_robot::num::padded;
 use serde::Serialize;
 
-/// Where on each step limits are looked at once more.
+/// The number of places on each step at which limits are checked once more.
 const SHARES: usize = 8;
 /// A limit is said to bind where it is used to this share.
 const BINDS: f64 = 0.99;
@@ -31,13 +31,13 @@ struct Leg {
     steps: Vec<Step>,
     /// When each step starts, from the start of this piece, not yet slowed; and the end.
     times: Vec<f64>,
-    /// By what it is slowed down, ≥ 1.
+    /// The factor by which it is slowed down, ≥ 1.
     slower: f64,
     /// When it starts.
     start: f64,
 }
 
-/// What the robot does at a time.
+/// The state of the robot at a time.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
     /// Seconds from the start.
@@ -52,7 +52,7 @@ pub struct Row {
     pub acceleration: Vec<f64>,
 }
 
-/// What is limited.
+/// The quantity that is limited.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Limited {
@@ -96,12 +96,13 @@ impl Trajectory {
         self.total
     }
 
-    /// How far each joint strays from the path between the samples that were given: an estimate, from the spline through every other of them.
+    /// Returns how far each joint strays from the path between the samples that were given: an estimate, from
+    /// the spline through every other of them.
     pub fn path_error(&self) -> &[f64] {
         &self.path_error
     }
 
-    /// What the robot does at a time, which is taken into [0, total time].
+    /// Returns the state of the robot at a time, which is clamped to [0, total time].
     pub fn at(&self, time: f64) -> Row {
         let time = time.clamp(0.0, self.total);
         let k = self.legs.partition_point(|leg| leg.start <= time).max(1) - 1;
@@ -127,7 +128,7 @@ impl Trajectory {
         (0..count).map(move |i| i as f64 / rate).chain([self.total]).map(|time| self.at(time))
     }
 
-    /// Which limits bind, the longest first.
+    /// Returns which limits bind, the longest first.
     pub fn bindings(&self) -> Vec<Binding> {
         let mut all = Vec::new();
         for joint in 0..self.limits.speed.len() {
@@ -172,7 +173,8 @@ impl Leg {
         (step, (gone / step.length).clamp(0.0, 1.0), speed.max(0.0))
     }
 
-    /// How long a limit of a joint binds: of its speed (0) or its acceleration (1). Before it is slowed down.
+    /// Returns how long a limit of a joint binds: of its speed (0) or its acceleration (1). Before it is
+    /// slowed down.
     fn bound(&self, joint: usize, which: usize, limits: &JointLimits) -> f64 {
         let most = if which == 0 { 1.0 } else { limits.acceleration[joint] / limits.speed[joint] };
         let binds = |step: &&Step| {
@@ -182,7 +184,7 @@ impl Leg {
     }
 }
 
-/// By what a step is too fast: > 1 where limits are exceeded.
+/// Returns the factor by which a step is too fast: > 1 where limits are exceeded.
 fn excess(spline: &Spline, step: &Step, acceleration: &[f64]) -> f64 {
     let shares = (0..=SHARES).map(|i| i as f64 / SHARES as f64);
     shares.fold(0.0, |most: f64, share| {
@@ -192,7 +194,8 @@ fn excess(spline: &Spline, step: &Step, acceleration: &[f64]) -> f64 {
     })
 }
 
-/// The splines of joints, each divided by its speed limit, and of poses, over the length of chords. `None` if nothing moves.
+/// The splines of joints, each divided by its speed limit, and of poses, over the length of chords. `None` if
+/// nothing moves.
 fn splines(samples: &[Waypoint], limits: &JointLimits) -> Option<(Spline, Spline)> {
     let scaled = |w: &Waypoint| -> Point {
         padded(&w.q.iter().zip(&limits.speed).map(|(q, v)| q / v).collect::<Vec<_>>())
@@ -212,8 +215,9 @@ fn splines(samples: &[Waypoint], limits: &JointLimits) -> Option<(Spline, Spline
     (knots.len() > 1).then(|| (Spline::new(knots.clone(), joints), Spline::new(knots, poses)))
 }
 
-/// How far a spline may be from what it was sampled from: a sixteenth of how far the spline through every other sample is from the ones left out,
-/// since its error goes with the fourth power of their distance.
+/// Returns how far a spline may be from what it was sampled from: a sixteenth of how far the spline through
+/// every other sample is from the ones left out, since its error goes with the fourth power of their
+/// distance.
 fn doubt(spline: &Spline) -> Point {
     let knots = spline.knots();
     let value = |k: usize| spline.at(k.min(knots.len() - 2), knots[k])[0];

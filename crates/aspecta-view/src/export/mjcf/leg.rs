@@ -1,6 +1,7 @@
 //! A leg as bodies and joints.
 //!
-//! In the start configuration all bodies of legs are aligned with the base, so positions and axes are written in its axes.
+//! In the start configuration all bodies of legs are aligned with the base, so positions and axes are written
+//! in its axes.
 
 use super::element::Element;
 use crate::figure::skeleton::{LegShape, Point, times};
@@ -10,7 +11,8 @@ use std::f64::consts::TAU;
 
 /// Mass of a link. All forces are inertial, so only ratios of masses matter.
 const LINK: f64 = 0.1;
-/// The driven joint's inertia is this many times that of what it moves, so that the servo alone says where it is.
+/// The driven joint's inertia is this many times that of what it moves, so that the servo alone says where it
+/// is.
 const DRIVEN: f64 = 1000.0;
 /// The servo is critically damped, with this natural frequency (rad/s).
 const FREQUENCY: f64 = 100.0;
@@ -31,13 +33,14 @@ pub struct Limb<'a> {
 }
 
 impl Limb<'_> {
-    /// Its first body, with the other in it; that one has the site `end…`, which belongs at the platform's `attachment…`.
+    /// Returns its first body, with the other in it; that one has the site `end…`, which belongs at the
+    /// platform's `attachment…`.
     pub fn body(&self) -> Element {
         let [first, last] = self.leg.actuator.bodies(self.leg, self.shape, self.q);
         self.link(&first).child(self.ended(self.link(&last), last.ends[1]))
     }
 
-    /// What holds the leg and the platform together.
+    /// Returns the constraint that holds the leg and the platform together.
     pub fn closure(&self) -> Element {
         Element::new("connect")
             .with("name", self.named("closure"))

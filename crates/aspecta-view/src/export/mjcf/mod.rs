@@ -1,8 +1,9 @@
 //! MuJoCo's models (MJCF): bodies and joints in trees, closed loops as `connect` constraints.
 //!
-//! Lengths are in the robot's unit, angles in radians. There is neither gravity nor contact, and masses have no meaning: the
-//! model moves as the robot's kinematics do. Joints read what the robot's coordinates are: `q1`, `q2`, … the driven ones, `x`, `y`, `z` and
-//! `phi` those of the platform; an orientation in space is that of the body `platform`.
+//! Lengths are in the robot's unit, angles in radians. There is neither gravity nor contact, and masses have
+//! no meaning: the model moves as the robot's kinematics do. Joints read what the robot's coordinates are:
+//! `q1`, `q2`, … the driven ones, `x`, `y`, `z` and `phi` those of the platform; an orientation in space is
+//! that of the body `platform`.
 
 mod element;
 mod leg;
@@ -14,8 +15,9 @@ use aspecta::robot::{Platform, Robot};
 use element::Element;
 use leg::Limb;
 
-/// The robot as a model that starts in the configuration `start`. Position servos `q1`, `q2`, … drive it; the keyframe `start` has the inputs
-/// that keep it where it is. Ranges of the driven joints are part of it, but not the limits in [`left_out`].
+/// The robot as a model that starts in the configuration `start`. Position servos `q1`, `q2`, … drive it; the
+/// keyframe `start` has the inputs that keep it where it is. Ranges of the driven joints are part of it, but
+/// not the limits in [`left_out`].
 pub fn model(robot: &Robot, start: &Solution) -> String {
     let skeleton = Skeleton::at(robot, &start.pose, &start.q);
     let thickness = 0.01 * skeleton.size;
@@ -62,7 +64,7 @@ fn settings() -> [Element; 3] {
     ]
 }
 
-/// What a reader of the model cannot see in it.
+/// Returns the facts that a reader of the model cannot see in it.
 fn facts(robot: &Robot, start: &Solution) -> Element {
     let text = |name, data: &str| Element::new("text").with("name", name).with("data", data);
     let pose: Vec<_> = robot.platform.coordinates().iter().map(|c| c.name).collect();
@@ -102,7 +104,8 @@ fn attachment(number: usize, end: Point, thickness: f64) -> Vec<Element> {
     if end == [0.0; 3] { vec![site] } else { vec![site, arm] }
 }
 
-/// The joints of the platform. Their axes are written in its own frame, though slides go along those of the base.
+/// The joints of the platform. Their axes are written in its own frame, though slides go along those of the
+/// base.
 fn joints(platform: Platform, pose: &[f64], axes: &[Point; 3]) -> Vec<Element> {
     let joint = |name: &str, kind: &str| Element::new("joint").with("name", name).with("type", kind);
     let coordinates = platform.coordinates().iter().zip(pose).enumerate();

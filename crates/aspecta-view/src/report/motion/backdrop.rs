@@ -1,4 +1,5 @@
-//! The aspects that a motion is in: all of the plane, or sections across the third coordinate that change while it is played.
+//! The aspects that a motion is in: all of the plane, or sections across the third coordinate that change
+//! while it is played.
 
 use super::panel::Panel;
 use super::tracks::Tracks;
@@ -74,7 +75,7 @@ pub fn panel(analysis: &Analysis, frames: &[Frame], tracks: &mut Tracks) -> Opti
     Some(panel.svg.finish())
 }
 
-/// What each frame shows; nothing where it is in no class that was analysed.
+/// Returns the section behind each frame; `None` where the frame is in no class that was analysed.
 fn sections(analysis: &Analysis, frames: &[Frame]) -> Vec<Option<Section>> {
     let class = |frame: &Frame| analysis.class_of(frame.mode, frame.det_a?);
     let mut all = Vec::new();
@@ -91,7 +92,7 @@ fn sections(analysis: &Analysis, frames: &[Frame]) -> Vec<Option<Section>> {
     all
 }
 
-/// Where each frame's section is: as far apart as the finest cells, or further to be few.
+/// Returns the height of each frame's section: as far apart as the finest cells, or further to be few.
 fn heights(analysis: &Analysis, stretch: &[Frame], of: usize) -> Vec<Option<f64>> {
     if analysis.window.axes().len() < 3 {
         return vec![None; stretch.len()];

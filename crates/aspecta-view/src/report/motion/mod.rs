@@ -1,6 +1,7 @@
 //! A motion to be watched: one standalone page with the robot, its aspect and the determinants together.
 //!
-//! Everything that is seen is computed here, for each frame; the page's script draws and computes nothing of the robot.
+//! Everything that is seen is computed here, for each frame; the page's script draws and computes nothing of
+//! the robot.
 
 mod backdrop;
 mod page;
@@ -41,7 +42,8 @@ pub struct Motion<'a> {
 #[derive(Clone)]
 struct Frame {
     mode: WorkingMode,
-    /// Determinants as in a profile, but over their largest moduli along the whole motion; segments are counted through.
+    /// Determinants as in a profile, but over their largest moduli along the whole motion; segments are
+    /// counted through.
     point: ProfilePoint,
     /// The sign of det A; none if it is 0.
     det_a: Option<DetSign>,
@@ -57,8 +59,8 @@ impl<'a> Motion<'a> {
         Self { robot, frames: Vec::new(), timed: false, obstacle: None, analysis: None }
     }
 
-    /// Goes on in a working mode, from where the motion is. Segments of the profile are counted on from those before.
-    /// Samples at which the robot has no determinants are left out.
+    /// Goes on in a working mode, from where the motion is. Segments of the profile are counted on from those
+    /// before. Samples at which the robot has no determinants are left out.
     #[must_use]
     pub fn then(mut self, mode: WorkingMode, profile: &[ProfilePoint]) -> Self {
         let (before, run) = self.frames.last().map_or((0, 0), |f| (f.point.segment, f.run));
@@ -90,14 +92,15 @@ impl<'a> Motion<'a> {
         self
     }
 
-    /// Where the motion fails, if it does: of a motion in one working mode.
+    /// Returns the motion, in one working mode, with the place at which it fails, if it does.
     #[must_use]
     pub fn stopped_by(mut self, obstacle: Option<&'a Obstacle>) -> Self {
         self.obstacle = obstacle;
         self
     }
 
-    /// Shows the aspects that the motion is in. Of slices and of robots with more than three coordinates they are not shown.
+    /// Shows the aspects that the motion is in. Of slices and of robots with more than three coordinates they
+    /// are not shown.
     #[must_use]
     pub fn within(mut self, analysis: &'a Analysis) -> Self {
         self.analysis = Some(analysis);
@@ -138,7 +141,8 @@ impl<'a> Motion<'a> {
         }
     }
 
-    /// Times at which the platform moves steadily: its translations, and its angles times the robot's characteristic length.
+    /// Times at which the platform moves steadily: its translations, and its angles times the robot's
+    /// characteristic length.
     fn pace(&mut self) {
         let coordinates = self.robot.platform.coordinates();
         let turns_only = coordinates.iter().all(|c| c.angle);

@@ -14,7 +14,7 @@ const DECIMALS: usize = 4;
 /// Significant digits of lengths.
 const DIGITS: i32 = 6;
 
-/// What is seen, as SVG.
+/// The pictures of the page, as SVG.
 pub struct Pictures {
     pub robot: String,
     pub aspect: Option<String>,
@@ -200,7 +200,7 @@ impl Readout<'_> {
         }
     }
 
-    /// What the script needs.
+    /// Returns the data that the script needs, as JSON.
     fn json(mut self) -> String {
         let clock = self.tracks.add(self.frames.iter().map(|f| f.seconds), 1000.0);
         format!("{{\"frames\":{},\"clock\":{clock},\"tracks\":{}}}", self.frames.len(), self.tracks.json())

@@ -1,4 +1,5 @@
-//! A picture in which something moves. Elements say by `data-` attributes which tracks move them; `motion.js` does so.
+//! A picture in which something moves. Elements say by `data-` attributes which tracks move them; `motion.js`
+//! does so.
 
 use super::PATH;
 use super::tracks::{PIXEL, Tracks};
@@ -9,7 +10,7 @@ use std::fmt::Display;
 
 /// A picture and the tracks it adds to.
 pub struct Panel<'a> {
-    /// To draw what stands still.
+    /// The picture, to draw the still parts on.
     pub svg: Svg,
     tracks: &'a mut Tracks,
 }
@@ -39,8 +40,8 @@ impl<'a> Panel<'a> {
         }
     }
 
-    /// A path that is drawn thin, and boldly as far as the motion has come, where there is a dot. It is interrupted before each frame
-    /// of `breaks`.
+    /// A path that is drawn thin, and boldly as far as the motion has come, where there is a dot. It is
+    /// interrupted before each frame of `breaks`.
     pub fn trail(&mut self, path: &[[f64; 2]], breaks: &[usize], dot: f64) {
         let style = |colour: &str, width: f64| {
             format!(

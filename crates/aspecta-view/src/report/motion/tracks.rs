@@ -1,4 +1,5 @@
-//! What changes from frame to frame, as whole numbers: coordinates of pictures and the values beside them.
+//! The quantities that change from frame to frame, as whole numbers: coordinates of pictures and the values
+//! beside them.
 
 use std::collections::HashMap;
 use std::fmt::Write;

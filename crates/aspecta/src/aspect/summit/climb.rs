@@ -17,7 +17,8 @@ impl<const M: usize> Growth<M> {
     }
 }
 
-/// Whether some fixed combination of the frame makes every constraint grow that can be the least one in the box.
+/// Whether some fixed combination of the frame makes every constraint grow that can be the least one in the
+/// box.
 pub(super) fn can_climb<const M: usize>(common: &[Growth<M>], det: &Growth<M>) -> bool {
     let all = || common.iter().chain([det]);
     let least = all().fold(f64::INFINITY, |least, g| least.min(g.value.hi));
@@ -32,7 +33,8 @@ pub(super) fn can_climb<const M: usize>(common: &[Growth<M>], det: &Growth<M>) -
 /// Most corrections of a direction.
 const CORRECTIONS: usize = 60;
 
-/// Whether no v can be found because one form may vanish, or two may be opposite: most boxes that are too large are told so.
+/// Whether no v can be found because one form may vanish, or two may be opposite: most boxes that are too
+/// large are told so.
 fn is_hopeless<const M: usize>(forms: &[&[Interval; M]]) -> bool {
     let vanishes = |form: &&[Interval; M]| form.iter().all(|x| x.contains(0.0));
     forms.iter().any(vanishes)
@@ -61,8 +63,8 @@ fn least<const M: usize>(form: &[Interval; M], v: &[f64; M]) -> f64 {
     (0..M).fold(Interval::point(0.0), |sum, i| sum + form[i] * Interval::point(v[i])).lo
 }
 
-/// Whether there is a v with v·γ > 0 for every γ in every box of `forms`; sought by the perceptron's rule: add the worst vector, until there
-/// is none.
+/// Whether there is a v with v·γ > 0 for every γ in every box of `forms`; sought by the perceptron's rule:
+/// add the worst vector, until there is none.
 fn by_corrections<const M: usize>(forms: &[&[Interval; M]]) -> bool {
     let weight = balance(forms);
     let mut v = [0.0; M];
@@ -82,8 +84,9 @@ fn by_corrections<const M: usize>(forms: &[&[Interval; M]]) -> bool {
     false
 }
 
-/// The same, sought among the vertices: as many forms as components of v are made equal to their size, the other components are 0. A system with a
-/// solution has one of this kind, however different the sizes of its coefficients are, on which corrections founder.
+/// Whether such a direction is found among the vertices: as many forms as components of v are made equal to
+/// their size, the other components are 0. A system with a solution has one of this kind, however different
+/// the sizes of its coefficients are, on which corrections founder.
 fn by_vertices<const M: usize>(forms: &[&[Interval; M]]) -> bool {
     let rows = 1u32 << forms.len().min(MOST_TIGHT);
     (1..rows).filter(|tight| tight.count_ones() as usize <= M).any(|tight| {
@@ -99,8 +102,8 @@ fn by_vertices<const M: usize>(forms: &[&[Interval; M]]) -> bool {
 /// Most forms that are tried for tightness.
 const MOST_TIGHT: usize = 8;
 
-/// v with the `free` components only, at which the worst values of the forms equal their sizes: first for the middles of the forms, then for their corners
-/// in the orthant that v lies in.
+/// v with the `free` components only, at which the worst values of the forms equal their sizes: first for the
+/// middles of the forms, then for their corners in the orthant that v lies in.
 fn vertex<const M: usize>(tight: &[&[Interval; M]], free: &[usize]) -> Option<[f64; M]> {
     let n = free.len();
     let size: ArrayVec<f64, M> =
@@ -143,8 +146,8 @@ fn solve(system: &mut [[f64; 4]]) -> Option<[f64; 3]> {
     x.iter().all(|x| x.is_finite()).then_some(x)
 }
 
-/// Squared units of the vectors' lengths in which the derivatives along them are of like size: a vector along which all change
-/// little is given more weight. The search alone depends on it.
+/// Squared units of the vectors' lengths in which the derivatives along them are of like size: a vector along
+/// which all change little is given more weight. The search alone depends on it.
 fn balance<const M: usize>(forms: &[&[Interval; M]]) -> [f64; M] {
     let mut weight = [1.0f64; M];
     for _ in 0..3 {
@@ -186,7 +189,8 @@ mod tests {
         [by_corrections(&forms), by_vertices(&forms), is_hopeless(&forms)]
     }
 
-    /// Seen near a spherical robot's double serial singularity: derivatives along one vector are 10⁴ times those along another.
+    /// Seen near a spherical robot's double serial singularity: derivatives along one vector are 10⁴ times
+    /// those along another.
     #[test]
     fn vertices_are_found_where_corrections_founder() {
         let rows = [

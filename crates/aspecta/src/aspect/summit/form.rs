@@ -2,7 +2,8 @@
 
 use aspecta_robot::num::{Interval, Jet, Pack, Scalar, Slope, each};
 
-/// Centred forms over eight boxes, differentiated with respect to the coordinates that vary, scaled to [−1, 1] in each box.
+/// Centred forms over eight boxes, differentiated with respect to the coordinates that vary, scaled to [−1,
+/// 1] in each box.
 pub(super) type Form<const M: usize> = Jet<Slope<Pack, M>, M>;
 
 /// Values and gradient of a function over eight boxes.

@@ -44,8 +44,8 @@ impl<const N: usize, const M: usize> Frame<N, M> {
         Some(Self { vectors, climb, singular })
     }
 
-    /// The derivatives of a function along the vectors, from its gradient at fixed h and, for the legs in `own`, (leg, posture,
-    /// derivative with respect to s h).
+    /// The derivatives of a function along the vectors, from its gradient at fixed h and, for the legs in
+    /// `own`, (leg, posture, derivative with respect to s h).
     pub(super) fn along(&self, gradient: &[Interval; M], own: &[(usize, f64, Interval)]) -> [Interval; M] {
         std::array::from_fn(|i| {
             own.iter().fold(dot(gradient, &self.vectors[i]), |sum, (j, sign, partial)| {
@@ -58,8 +58,8 @@ impl<const N: usize, const M: usize> Frame<N, M> {
 /// M directions, and the surface each belongs to.
 type Directions<const M: usize> = ([[Interval; M]; M], [Option<usize>; M]);
 
-/// M directions: first those tangent to all the surfaces with the given normals, then for each surface k one (marked k) tangent to all
-/// the others.
+/// M directions: first those tangent to all the surfaces with the given normals, then for each surface k one
+/// (marked k) tangent to all the others.
 fn adapted<const M: usize>(normals: &[[Interval; M]]) -> Option<Directions<M>> {
     let mut directions = [[Interval::point(0.0); M]; M];
     let mut own = [None; M];

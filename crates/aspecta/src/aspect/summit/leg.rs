@@ -4,7 +4,7 @@ use super::form::Form;
 use super::view::View;
 use aspecta_robot::num::{Mask, Pack, Scalar, Slope, each};
 
-/// What depends on the range of h.
+/// The part of a leg's functions that depends on the range of h.
 pub(super) struct LegPart<const N: usize, const M: usize> {
     /// The leg's row of A for both postures.
     pub rows: [[Form<M>; N]; 2],

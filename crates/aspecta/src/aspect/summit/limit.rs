@@ -36,7 +36,7 @@ impl<const N: usize, const M: usize> LimitPart<N, M> {
         Self { constraint, mode, field, own }
     }
 
-    /// The same with other h.
+    /// Returns the limit's functions with other h.
     pub(super) fn with<const D: usize>(&self, view: &View<'_, D, N, M>, heights: &[[Form<M>; 2]; N]) -> Self {
         Self::new(view, heights, self.constraint, self.mode)
     }

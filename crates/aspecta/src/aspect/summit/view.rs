@@ -7,8 +7,8 @@ use aspecta_kinematics::chart::Coordinates;
 use aspecta_kinematics::constraints::Scale;
 use aspecta_kinematics::modal::LegClosure;
 use aspecta_kinematics::placement::{Placement, out_of_frame, wrench};
-use aspecta_robot::num::{Interval, LANES, Mask, Pack, Scalar, Slope, each};
 use aspecta_robot::Robot;
+use aspecta_robot::num::{Interval, LANES, Mask, Pack, Scalar, Slope, each};
 use std::cell::OnceCell;
 
 /// The robot over eight boxes.
@@ -32,7 +32,7 @@ pub(super) struct View<'a, const D: usize, const N: usize, const M: usize> {
     pub rooted: [bool; N],
     /// Lanes in which every row of A is bounded.
     pub usable: Mask,
-    /// What limits are differentiated by s h at, once that is asked for.
+    /// The place at which limits are differentiated by s h, once that is asked for.
     pub still: OnceCell<Box<Still<D, N, M>>>,
 }
 

@@ -21,7 +21,7 @@ pub(super) struct Way<'a, const D: usize, const N: usize, const M: usize> {
     bounds: Vec<Bound<N, M>>,
 }
 
-/// What bounds the aspects of some modes.
+/// A constraint that bounds the aspects of some modes.
 enum Bound<const N: usize, const M: usize> {
     /// The reach of this leg, in every mode.
     Reach(usize),
@@ -55,7 +55,7 @@ impl<'a, const D: usize, const N: usize, const M: usize> Way<'a, D, N, M> {
         }
     }
 
-    /// All constraints but det A, and the ends of the window, in one box.
+    /// Returns all constraints but det A, and the ends of the window, in one box.
     pub(super) fn constraints(
         &self,
         frame: &Frame<N, M>,
@@ -115,7 +115,8 @@ impl<'a, const D: usize, const N: usize, const M: usize> Way<'a, D, N, M> {
     }
 }
 
-/// All constraints but det A, which is of either sign: those who ask for it have it from [`Determinant`](super::determinant::Determinant).
+/// Returns all constraints but det A, which is of either sign: those who ask for it have it from
+/// [`Determinant`](super::determinant::Determinant).
 fn bounds<const D: usize, const N: usize, const M: usize>(
     view: &View<'_, D, N, M>,
     legs: &[LegPart<N, M>; N],

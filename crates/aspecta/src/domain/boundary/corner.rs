@@ -77,7 +77,8 @@ pub fn sharpen<const D: usize, const N: usize>(
     *simplices = sharp;
 }
 
-/// The point near some vertices on all their faces; if there is none within two cells, a point of the boundary between them.
+/// The point near some vertices on all their faces; if there is none within two cells, a point of the
+/// boundary between them.
 fn meeting<const D: usize, const N: usize>(
     field: &Field<'_, D, N>,
     vertices: &[BoundaryVertex],

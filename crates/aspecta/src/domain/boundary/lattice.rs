@@ -1,8 +1,10 @@
-//! A uniform grid over an aspect, which of its nodes lie in the aspect, and the simplices that cross the aspect's boundary.
+//! A uniform grid over an aspect, which of its nodes lie in the aspect, and the simplices that cross the
+//! aspect's boundary.
 //!
-//! Every cell is cut into M! simplices along its diagonal (Kuhn), one for each order in which its axes can be walked. All edges
-//! run from a node to the node one step further along some of the axes, a bit set `step`: an edge is (node, step), and neighbours
-//! agree on it, so that the simplices of the boundary fit without gaps.
+//! Every cell is cut into M! simplices along its diagonal (Kuhn), one for each order in which its axes can be
+//! walked. All edges run from a node to the node one step further along some of the axes, a bit set `step`:
+//! an edge is (node, step), and neighbours agree on it, so that the simplices of the boundary fit without
+//! gaps.
 
 use crate::aspect::{Analysis, Aspect, Place};
 use crate::domain::field::Field;
@@ -10,7 +12,7 @@ use aspecta_robot::work;
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
 
-/// What a node is to the aspect.
+/// The position of a node with respect to the aspect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tag {
     /// Outside the class.
@@ -47,8 +49,8 @@ pub struct Lattice {
 /// An edge of the grid: its first node and the axes it steps along.
 pub type Edge = (usize, usize);
 
-/// A simplex in which the boundary cuts the grid: the edges it cuts, in an order that turns the outward side to the right (2-D) or
-/// up (3-D: counter-clockwise seen from outside).
+/// A simplex in which the boundary cuts the grid: the edges it cuts, in an order that turns the outward side
+/// to the right (2-D) or up (3-D: counter-clockwise seen from outside).
 pub type Cut = [Edge; 3];
 
 impl Lattice {
@@ -120,9 +122,10 @@ impl Lattice {
         1..1 << self.axes.len()
     }
 
-    /// Finds out which nodes lie in the aspect: those of the class that the analysis locates there, and those it leaves undecided
-    /// that are joined to one of them by steps within the class (to the nearest) or by a way inward. If the class is proved
-    /// to have one aspect, all its nodes do. Returns how many nodes of the class could not be assigned.
+    /// Finds out which nodes lie in the aspect: those of the class that the analysis locates there, and those
+    /// it leaves undecided that are joined to one of them by steps within the class (to the nearest) or by a
+    /// way inward. If the class is proved to have one aspect, all its nodes do. Returns how many nodes of the
+    /// class could not be assigned.
     pub fn tag<const D: usize, const N: usize>(
         &mut self,
         analysis: &Analysis,
@@ -204,7 +207,8 @@ impl Lattice {
         work::flat_map_range(self.tags.len(), of_cell)
     }
 
-    /// The cuts of one simplex of the cell after `node`: its corners are reached by stepping along the axes in `order`.
+    /// The cuts of one simplex of the cell after `node`: its corners are reached by stepping along the axes
+    /// in `order`.
     fn cut(&self, node: usize, order: &[usize]) -> Vec<Cut> {
         let m = order.len();
         let mut walked = [0; 4];

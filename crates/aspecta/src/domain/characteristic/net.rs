@@ -26,7 +26,7 @@ struct Station<const N: usize> {
     unlocated: usize,
 }
 
-/// For each solution at the first end of an edge, its partner at the other.
+/// The partner at the other end of an edge of each solution at the first.
 type Pairing = ArrayVec<Option<u8>, MOST>;
 
 /// The pairings of the edges, lower index first, in order.
@@ -59,7 +59,7 @@ pub struct Net<'a, const D: usize, const N: usize> {
     sources: Vec<BoundaryVertex>,
     stations: Vec<Station<N>>,
     vertices: Vec<CharacteristicVertex>,
-    /// Where a solution (vertex of the boundary, number) is in `vertices`.
+    /// The index in `vertices` of a solution (vertex of the boundary, number).
     index: HashMap<(u32, u8), u32>,
     simplices: Vec<Simplex>,
 }
@@ -132,9 +132,9 @@ impl<'a, const D: usize, const N: usize> Net<'a, D, N> {
         Pairings { edges, pairs }
     }
 
-    /// Solutions are partners if Newton's method leads from each to the other; and so are the last two that are left over, if they are
-    /// no farther apart than [`LEAP`] times the edge is long. (Near a cusp Newton's method reaches only as far as the solution is
-    /// from X, however short the edge.)
+    /// Solutions are partners if Newton's method leads from each to the other; and so are the last two that
+    /// are left over, if they are no farther apart than [`LEAP`] times the edge is long. (Near a cusp
+    /// Newton's method reaches only as far as the solution is from X, however short the edge.)
     fn pair(&self, u: u32, v: u32) -> Pairing {
         let (a, b) = (&self.stations[u as usize], &self.stations[v as usize]);
         let arrives = |from: &[f64; N], to: &Station<N>| {
@@ -156,7 +156,8 @@ impl<'a, const D: usize, const N: usize> Net<'a, D, N> {
         pairing
     }
 
-    /// Whether all solutions at the ends of an edge pair, none farther from its partner than the diagonal of a cell.
+    /// Whether all solutions at the ends of an edge pair, none farther from its partner than the diagonal of
+    /// a cell.
     fn is_fine(&self, pairings: &Pairings, (u, v): (u32, u32)) -> bool {
         let (a, b) = (&self.stations[u as usize].others, &self.stations[v as usize].others);
         let is_short = |(x, partner): (&[f64; N], &Option<u8>)| {
@@ -176,7 +177,8 @@ impl<'a, const D: usize, const N: usize> Net<'a, D, N> {
         a == b && b == c
     }
 
-    /// Adds the images of a simplex, one for each solution that pairs all round it. Returns whether no solution is left over.
+    /// Adds the images of a simplex, one for each solution that pairs all round it. Returns whether no
+    /// solution is left over.
     pub fn emit(&mut self, pairings: &Pairings, simplex: &Simplex) -> bool {
         let [a, b, c] = simplex.corners;
         let count = |v: u32| self.stations[v as usize].others.len();

@@ -18,7 +18,7 @@ use std::io::{self, Read, Write};
 /// Version of the file format; raised when a field changes its meaning or goes away.
 pub const MAP_VERSION: u32 = 1;
 
-/// What a file begins with: the mark of gzip.
+/// The first bytes of a file: the mark of gzip.
 const MAGIC: [u8; 2] = [0x1f, 0x8b];
 
 /// The most bytes that are unpacked.
@@ -47,7 +47,7 @@ pub enum MapError {
     Window(#[from] SliceError),
 }
 
-/// What every version begins with.
+/// The fields with which every version begins.
 #[derive(Deserialize)]
 struct Head {
     map_version: u32,

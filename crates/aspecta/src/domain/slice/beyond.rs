@@ -1,10 +1,11 @@
-//! What the regions of a slice are to one another, beyond the slice.
+//! Relations between the regions of a slice that are seen beyond the slice.
 //!
-//! Two regions of a slice may be parts of one basic region of the whole workspace, joined outside the slice; and their images may
-//! coincide although no joint vector has a pose in both, for X′ with the joint vector of X leaves the slice. Either shows in a way
-//! through the class from X, or from X′, to a pose of the other region along which no pose with the same joint vector enters or leaves:
-//! *numerical*, and only straight ways are tried. Images of regions with different numbers of solutions are disjoint, for the number is
-//! one of the joint vector.
+//! Two regions of a slice may be parts of one basic region of the whole workspace, joined outside the slice;
+//! and their images may coincide although no joint vector has a pose in both, for X′ with the joint vector of
+//! X leaves the slice. Either shows in a way through the class from X, or from X′, to a pose of the other
+//! region along which no pose with the same joint vector enters or leaves: *numerical*, and only straight
+//! ways are tried. Images of regions with different numbers of solutions are disjoint, for the number is one
+//! of the joint vector.
 
 use crate::aspect::UnionFind;
 use crate::domain::grid::Pose;
@@ -23,7 +24,7 @@ const PARTS: u32 = 3;
 /// Pairs of regions, by index, the lesser first.
 type Pairs = BTreeSet<(usize, usize)>;
 
-/// What is known of pairs of regions with the same number of solutions, two or more.
+/// The relations known between pairs of regions with the same number of solutions, two or more.
 #[derive(Clone, Debug, Default)]
 pub struct Beyond {
     /// They are parts of one basic region.
@@ -36,7 +37,7 @@ pub struct Beyond {
     pub twins: Vec<(usize, [Pose; 2])>,
 }
 
-/// What a way shows of a pair of regions.
+/// The relation that a way shows between two regions.
 #[derive(Clone, Copy)]
 enum Shown {
     Joined,
@@ -63,7 +64,8 @@ impl Beyond {
         Some(Self::concluded(regions.len(), pairs.into_iter().zip(shown)))
     }
 
-    /// What follows for all pairs: regions joined to one region are one, and what is known of one holds for all of them.
+    /// Returns the relations that follow for all pairs: regions joined to one region are one, and a relation
+    /// of one holds for all of them.
     fn concluded(count: usize, shown: impl Iterator<Item = ((usize, usize), Option<Shown>)> + Clone) -> Self {
         let mut sets = UnionFind::new(count);
         for ((a, b), _) in shown.clone().filter(|(_, shown)| matches!(shown, Some(Shown::Joined))) {
@@ -125,7 +127,7 @@ struct Ways<'a> {
 }
 
 impl Ways<'_> {
-    /// What the ways from one region to another show.
+    /// Returns the relation that the ways from one region to another show.
     fn between(&self, a: usize, b: usize) -> Option<Shown> {
         self.samples[a].iter().find_map(|&node| {
             let fibre = self.fibre(node);
@@ -164,7 +166,7 @@ impl Ways<'_> {
     }
 }
 
-/// The same poses, seen from another of them.
+/// Returns the poses of a fibre seen from another of them.
 fn seen_from((pose, others): &Fibre, k: usize) -> Fibre {
     let mut rest = others.clone();
     let from = std::mem::replace(&mut rest[k], *pose);
@@ -175,7 +177,8 @@ fn seen_from((pose, others): &Fibre, k: usize) -> Fibre {
 mod tests {
     use super::*;
 
-    /// Regions 0 and 1 are one, the images of 1 and 2 coincide: so do those of 0 and 2. Of 3 nothing is known.
+    /// Regions 0 and 1 are one, the images of 1 and 2 coincide: so do those of 0 and 2. Of 3 nothing is
+    /// known.
     #[test]
     fn what_is_known_of_a_part_holds_for_the_whole() {
         let pairs = (0..4).flat_map(|a| (a..4).map(move |b| (a, b)));

@@ -1,10 +1,11 @@
-//! Characteristic surfaces on a slice (Definition 9): where a pose X′ with the joint vector of X, outside the slice as a rule, meets the
-//! boundary of the class.
+//! Characteristic surfaces on a slice (Definition 9): where a pose X′ with the joint vector of X, outside the
+//! slice as a rule, meets the boundary of the class.
 //!
-//! On a slice the points X′ of that boundary are not at hand, so the surfaces are found from the side of X. *Numerical*: between
-//! neighbouring nodes of the grid that lie in different regions the other poses are followed (`track`) to where the first is lost, and
-//! these places are joined simplex by simplex, the cells being cut into simplices along their diagonals. The surfaces stop a cell
-//! short of the boundary of the aspect, and what lies between the nodes is a chord.
+//! On a slice the points X′ of that boundary are not at hand, so the surfaces are found from the side of X.
+//! *Numerical*: between neighbouring nodes of the grid that lie in different regions the other poses are
+//! followed (`track`) to where the first is lost, and these places are joined simplex by simplex, the cells
+//! being cut into simplices along their diagonals. The surfaces stop a cell short of the boundary of the
+//! aspect, and what lies between the nodes is a chord.
 
 mod beyond;
 mod track;
@@ -34,8 +35,9 @@ struct Crossing {
     face: Face,
 }
 
-/// The characteristic surfaces on a slice that was cut into regions: segments in two coordinates, triangles in three (those that
-/// vary; vertices have no others). Empty on a slice of one, and for a whole workspace, whose surfaces are [`super::characteristic`]'s.
+/// The characteristic surfaces on a slice that was cut into regions: segments in two coordinates, triangles
+/// in three (those that vary; vertices have no others). Empty on a slice of one, and for a whole workspace,
+/// whose surfaces are [`super::characteristic`]'s.
 pub fn surfaces(analysis: &Analysis, domains: &Domains) -> Mesh {
     let labels = &domains.labels;
     let Some(sheet) = Sheet::new(analysis, domains.aspect).filter(|_| !analysis.fixed.is_empty()) else {
@@ -79,8 +81,9 @@ fn cut_edges<'a>(labels: &'a Labels, corners: &'a [usize]) -> impl Iterator<Item
     ordered.filter(|&(a, b)| labels.region[a] != labels.region[b])
 }
 
-/// Where the other poses of the first end are lost on the way to the second, or else those of the second on the way to the first.
-/// The middle, if none are: then the regions were told apart by what lies between the nodes.
+/// Returns the place at which the other poses of the first end are lost on the way to the second, or else
+/// those of the second on the way to the first. The middle, if none are: then the regions were told apart by
+/// what lies between the nodes.
 fn crossing(sheet: &Sheet<'_>, labels: &Labels, (a, b): Edge) -> Crossing {
     let from = labels.grid.pose(a);
     let to = labels.grid.turned_to(&from, b);
@@ -128,7 +131,8 @@ impl Net<'_> {
         }
     }
 
-    /// The segments that part the regions of a triangle: one between two of them; three, which meet amid it, between three.
+    /// The segments that part the regions of a triangle: one between two of them; three, which meet amid it,
+    /// between three.
     fn segments(&mut self, corners: &[usize]) -> ArrayVec<[u32; 2], 3> {
         let cut: ArrayVec<u32, 3> = cut_edges(self.labels, corners).map(|edge| self.index[&edge]).collect();
         match cut[..] {

@@ -8,13 +8,14 @@ use crate::domain::sheet::Sheet;
 use aspecta_kinematics::constraints::Constraint;
 use aspecta_kinematics::for_platform;
 
-/// How often the first step is halved before a solution counts as lost: where it is lost is known to 2^−[`HALVINGS`] of the segment.
+/// How often the first step is halved before a solution counts as lost: where it is lost is known to
+/// 2^−[`HALVINGS`] of the segment.
 const HALVINGS: i32 = 20;
 /// A solution followed there and back comes back as near as this, in widths of the window.
 const BACK: f64 = 1e-7;
 const SINGULAR: Face = Face::Of(Constraint::Det);
 
-/// Where a solution is lost on a segment, and to what.
+/// The loss of a solution on a segment: its place, and the face that is met.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Loss {
     /// The part of the segment until then, in [0, 1].
@@ -23,8 +24,8 @@ pub struct Loss {
     pub face: Face,
 }
 
-/// Follows `other`, a pose of the class with the joint vector of `from`, while X goes straight from `from` to `to`: `None` if it stays
-/// in the class.
+/// Follows `other`, a pose of the class with the joint vector of `from`, while X goes straight from `from` to
+/// `to`: `None` if it stays in the class.
 ///
 /// *Numerical*: Newton's method, each step of which must converge fast, into the class, and back again.
 pub fn loss(sheet: &Sheet<'_>, from: &Pose, to: &Pose, other: &Pose) -> Option<Loss> {
@@ -59,7 +60,7 @@ fn lost<const D: usize, const N: usize>(
 /// The solution x, that of X = `from`, at X = `to`; and from there back at X = `from`.
 ///
 /// # Errors
-/// What it meets: a face of the class, or det A = 0 where Newton's method does not converge.
+/// The face that it meets: one of the class, or det A = 0 where Newton's method does not converge.
 fn advanced<const D: usize, const N: usize>(
     field: &Field<'_, D, N>,
     x: &[f64; N],

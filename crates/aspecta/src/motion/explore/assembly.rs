@@ -13,7 +13,8 @@ use aspecta_robot::work::Stopwatch;
 use aspecta_robot::{Robot, Window};
 use serde::Serialize;
 
-/// The direct solutions of a joint vector, and which of them can be changed into each other without meeting a singularity.
+/// The direct solutions of a joint vector, and which of them can be changed into each other without meeting a
+/// singularity.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct JoinedSolutions {
     /// The joint vector.
@@ -43,8 +44,9 @@ pub struct SharedClass {
     pub mode: WorkingMode,
     /// The sign of det A.
     pub det_a: DetSign,
-    /// [`NumberedSolution::number`]s, those together that are joined: they lie in one aspect (certified). Sets that are apart could not be joined
-    /// within the budget, which proves nothing. Solutions of different classes lie in different aspects (certified).
+    /// [`NumberedSolution::number`]s, those together that are joined: they lie in one aspect (certified).
+    /// Sets that are apart could not be joined within the budget, which proves nothing. Solutions of
+    /// different classes lie in different aspects (certified).
     pub joined: Vec<Vec<usize>>,
     /// Poses drawn.
     pub samples: usize,
@@ -52,8 +54,8 @@ pub struct SharedClass {
     pub end: End,
 }
 
-/// Joins the direct solutions `found` of `q`, class by class. Solutions that are not proved to lie in a class (singular, beyond a limit, or too near to
-/// either to tell) are in none.
+/// Joins the direct solutions `found` of `q`, class by class. Solutions that are not proved to lie in a class
+/// (singular, beyond a limit, or too near to either to tell) are in none.
 ///
 /// # Errors
 /// [`ExploreError`].

@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 /// x, y, z, roll, pitch, yaw; angles are any real numbers.
 pub(super) type Pose = [f64; 6];
 
-/// Where the platform is, whatever coordinates say so.
+/// The position and orientation of the platform, independent of coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Body {
     origin: Vector3<f64>,
@@ -23,13 +23,13 @@ impl Body {
         Self::new([pose[0], pose[1], pose[2]], turn)
     }
 
-    /// Its coordinates, the pitch within ±π/2.
+    /// Returns its coordinates, the pitch within ±π/2.
     pub fn pose(&self) -> Pose {
         let (roll, pitch, yaw) = self.turn.euler_angles();
         [self.origin.x, self.origin.y, self.origin.z, roll, pitch, yaw]
     }
 
-    /// How far apart: translation, and the angle of the rotation times `length`.
+    /// Returns the distance between two bodies: translation, and the angle of the rotation times `length`.
     pub fn distance(&self, other: &Self, length: f64) -> f64 {
         let cos = self.turn.coords.dot(&other.turn.coords).abs().min(1.0);
         (self.origin - other.origin).norm().hypot(2.0 * cos.acos() * length)
@@ -55,14 +55,16 @@ impl Body {
     }
 }
 
-/// The coordinates of the pose `b` among which the straight line from `a` is shortest, as `length` measures it: with full turns of the angles that are
-/// `free`, and if all are with (roll + π, π − pitch, yaw + π), which is the same orientation.
+/// The coordinates of the pose `b` among which the straight line from `a` is shortest, as `length` measures
+/// it: with full turns of the angles that are `free`, and if all are with (roll + π, π − pitch, yaw + π),
+/// which is the same orientation.
 pub(super) fn beside(a: &Pose, b: &Pose, free: [bool; 3], length: impl Fn(&Pose) -> f64) -> Pose {
     let mut best = (f64::INFINITY, *b);
     let over = [b[0], b[1], b[2], b[3] + PI, PI - b[4], b[5] + PI];
     let meant = if free == [true; 3] { &[*b, over][..] } else { &[*b][..] };
     for other in meant {
-        // Near the poles of the pitch a turn of the roll undoes one of the yaw, so the nearest angles need not be nearest together.
+        // Near the poles of the pitch a turn of the roll undoes one of the yaw, so the nearest angles need
+        // not be nearest together.
         for more in [0.0, TAU, -TAU] {
             let mut pose = *other;
             for k in 3..6 {
@@ -122,7 +124,7 @@ mod tests {
         }
     }
 
-    /// What is put beside a pose is the same orientation, and no further than before.
+    /// A body put beside a pose keeps its orientation, and is no further than before.
     #[test]
     fn beside_means_the_same_pose() {
         let mut random = Random::new(3);

@@ -1,4 +1,5 @@
-//! How a roadmap grows: poses are drawn and joined to what is near, and components feel their way towards each other.
+//! How a roadmap grows: poses are drawn and joined to what is near, and components feel their way towards
+//! each other.
 
 use super::body::Pose;
 use super::roadmap::{Roadmap, Way};
@@ -22,7 +23,7 @@ const NEAR: usize = 8;
 /// Steps of a component into the unknown, and towards another.
 const STEPS: (usize, usize) = (6, 40);
 
-/// What one task found.
+/// The finding of one task.
 enum Found {
     Nothing,
     /// A pose of the class, and ways to it from spots: all but the last pose of each.
@@ -94,7 +95,8 @@ impl<'a> Growth<'a> {
         open
     }
 
-    /// All tasks once; `draws` says whether some of them draw poses although there are components to be joined.
+    /// All tasks once; `draws` says whether some of them draw poses although there are components to be
+    /// joined.
     fn round(&mut self, draws: bool) {
         let open = self.open();
         let first = self.rounds * TASKS;

@@ -53,7 +53,8 @@ pub struct Effort {
 }
 
 impl Effort {
-    /// What the k-th (from 0) of `count` tasks may take: all samples, and its part of the time with what those before it left of theirs.
+    /// Returns the effort of the k-th (from 0) of `count` tasks: all samples, and its part of the time with
+    /// what those before it left of theirs.
     fn part(self, k: usize, count: usize) -> Self {
         Self { seconds: self.seconds.map(|most| most * (k + 1) as f64 / count as f64), ..self }
     }
@@ -116,7 +117,7 @@ pub enum ExploreError {
     },
 }
 
-/// What was seen of a robot's pose space.
+/// The result of exploring a robot's pose space.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Exploration {
     /// The robot's name.
@@ -127,7 +128,7 @@ pub struct Exploration {
     pub classes: Vec<ExploredClass>,
 }
 
-/// What was seen of a class of aspects.
+/// The result of exploring a class of aspects.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ExploredClass {
     /// The working mode.
@@ -152,7 +153,7 @@ pub struct Component {
     pub poses: usize,
     /// Poses of them that were drawn.
     pub samples: usize,
-    /// That of them with the greatest |det Â|.
+    /// The pose among them with the greatest |det Â|.
     pub representative: Vec<f64>,
     /// Its |det Â| ([`Margins`](aspecta_kinematics::constraints::Margins)). Numerical.
     pub clearance: f64,
@@ -214,7 +215,7 @@ fn roaming(robot: &Robot) -> Result<Window, ExploreError> {
 }
 
 impl Growth<'_> {
-    /// What is told of it.
+    /// Returns the summary of the class.
     fn summary(&self, mode: WorkingMode, det_a: DetSign, end: End) -> ExploredClass {
         let roadmap = &self.roadmap;
         let clearance = |spot: u32| self.territory.cost.measures(&roadmap.spot(spot).pose).parallel;

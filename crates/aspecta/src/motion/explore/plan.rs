@@ -71,7 +71,7 @@ pub enum NoWay {
     /// Roadmaps are not for this robot.
     #[error(transparent)]
     Robot(#[from] ExploreError),
-    /// What is wrong with the poses, why no path exists, or what could not be decided.
+    /// A refusal: the poses are wrong, no path exists, or it could not be decided.
     #[error(transparent)]
     Refused(#[from] Refusal),
 }
@@ -120,7 +120,7 @@ impl Territory<'_> {
         path
     }
 
-    /// The same path in coordinates that go on from each pose to the next.
+    /// Returns the path in coordinates that go on from each pose to the next.
     fn unrolled(&self, path: &[Pose]) -> Vec<Pose> {
         let mut all: Vec<Pose> = Vec::new();
         for pose in path {

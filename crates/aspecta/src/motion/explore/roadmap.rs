@@ -23,7 +23,8 @@ pub(super) struct Spot {
     around: Vec<u32>,
 }
 
-/// A way that was found: from a spot, over new poses, each joined to the one before, to a spot if it arrives at one.
+/// A way that was found: from a spot, over new poses, each joined to the one before, to a spot if it arrives
+/// at one.
 pub(super) struct Way {
     pub from: u32,
     pub over: Vec<Pose>,

@@ -1,5 +1,5 @@
-//! Poses of joint vectors drawn within the limits of the actuators: where joint limits leave little, poses drawn at random hit nothing, but every
-//! direct solution is within the limits of the driven joints.
+//! Poses of joint vectors drawn within the limits of the actuators: where joint limits leave little, poses
+//! drawn at random hit nothing, but every direct solution is within the limits of the driven joints.
 
 use super::body::Pose;
 use crate::aspect::DetSign;
@@ -36,7 +36,7 @@ impl Seeds {
         Self(work::flat_map_range(DRAWS as usize, |draw| of(draw as u64)))
     }
 
-    /// Those that seem to lie in a class.
+    /// Returns the poses that seem to lie in a class.
     pub fn of(&self, mode: WorkingMode, det_a: DetSign) -> impl Iterator<Item = Pose> {
         self.0.iter().filter(move |seed| (seed.0, seed.1) == (mode, det_a)).map(|seed| seed.2)
     }

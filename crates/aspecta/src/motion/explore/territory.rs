@@ -16,7 +16,7 @@ const HALVINGS: u32 = 3;
 /// Neighbourhoods of a pose, each half as wide as the one before, and draws from each.
 const SMALLEST: i32 = 12;
 const DRAWS: usize = 4;
-/// Where a segment is looked at in numbers before it is proved.
+/// The places at which a segment is checked numerically before it is proved.
 const GLANCES: [f64; 7] = [1.0, 0.5, 0.25, 0.75, 0.125, 0.375, 0.875];
 
 /// S_{s,σ}, with margins if they are asked for, and motions in it.
@@ -29,7 +29,8 @@ pub(super) struct Territory<'a> {
 
 /// The window of a free body, in which angles are any real numbers where the robot file sets no range.
 ///
-/// If it bounds none of them the pitch goes on past ±π/2, to coordinates of orientations that have others within it.
+/// If it bounds none of them the pitch goes on past ±π/2, to coordinates of orientations that have others
+/// within it.
 pub(super) fn roaming_window(robot: &Robot) -> Result<Window, Unbounded> {
     let mut window = robot.workspace_window()?;
     if robot.window[3..].iter().all(Option::is_none) {
@@ -49,7 +50,7 @@ impl<'a> Territory<'a> {
         }
     }
 
-    /// How far apart two poses are.
+    /// Returns how far apart two poses are.
     pub fn distance(&self, a: &Body, b: &Body) -> f64 {
         a.distance(b, self.proof.robot.characteristic_length())
     }
@@ -100,8 +101,8 @@ impl<'a> Territory<'a> {
         (0..tries).map(|_| self.draw(random)).find(is_member)
     }
 
-    /// A pose somewhere near, drawn from ever smaller neighbourhoods until one is joined to `from` and further from singularities: none
-    /// if nothing near is.
+    /// A pose somewhere near, drawn from ever smaller neighbourhoods until one is joined to `from` and
+    /// further from singularities: none if nothing near is.
     pub fn climb(&self, from: &Pose, random: &mut Random) -> Option<Pose> {
         let clearance = |pose: &Pose| {
             let measures = self.cost.measures(pose);
@@ -117,8 +118,8 @@ impl<'a> Territory<'a> {
         (0..SMALLEST).flat_map(|k| [k; DRAWS]).map(near).find(is_better)
     }
 
-    /// From a pose of the class towards another pose, in at most `steps` steps: the poses met, each joined to the one before by a
-    /// proved segment, the last of them `to` if it was reached.
+    /// Goes from a pose of the class towards another pose, in at most `steps` steps; returns the poses met,
+    /// each joined to the one before by a proved segment, the last of them `to` if it was reached.
     pub fn advance(&self, from: &Pose, to: &Pose, steps: usize) -> Vec<Pose> {
         let goal = Body::at(to);
         let mut way: Vec<Pose> = Vec::new();

@@ -1,5 +1,5 @@
-//! What a path costs: its length, the dearer the nearer it comes to a singularity. Numerical: it decides which of the sound paths is
-//! taken, never whether a path is sound.
+//! The cost of a path: its length, weighted the more the nearer it comes to a singularity. Numerical: it
+//! decides which of the sound paths is taken, never whether a path is sound.
 
 use aspecta_kinematics::constraints::{Demand, Margins, measures};
 use aspecta_kinematics::for_platform;
@@ -16,7 +16,7 @@ const MOST: f64 = 16.0;
 pub(in crate::motion) struct Cost<'a, const K: usize> {
     robot: &'a Robot,
     demand: &'a Demand,
-    /// What a unit of each coordinate is worth: 1 for lengths, the characteristic length for angles.
+    /// The weight of a unit of each coordinate: 1 for lengths, the characteristic length for angles.
     scale: [f64; K],
     glued: [bool; K],
     /// How much nearness to singularities counts.
@@ -45,7 +45,8 @@ impl<'a, const K: usize> Cost<'a, K> {
         cost
     }
 
-    /// Length of the straight segment: translations and angles times the characteristic length. Of a free body it is the angle it turns through.
+    /// Length of the straight segment: translations and angles times the characteristic length. Of a free
+    /// body it is the angle it turns through.
     pub fn distance(&self, a: &[f64; K], b: &[f64; K]) -> f64 {
         let step: [f64; K] = std::array::from_fn(|k| (b[k] - a[k]) * self.scale[k]);
         let apart: f64 = step.iter().map(|x| x * x).sum();

@@ -28,13 +28,13 @@ use std::collections::HashSet;
 /// Up to three coordinates, of which the first n count.
 type Pose = [f64; 3];
 
-/// What kind of path is wanted.
+/// The kind of path that is wanted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlanOptions {
     /// How much nearness to singularities counts: a unit of length costs c^−w where the clearance c is the smaller of |det Â| and
     /// the |B_jj| / max |B_jj|. 0 looks for the shortest path; 8 as good as only at the least clearance.
     pub weight: f64,
-    /// What the whole path must keep away from singularities, proved.
+    /// The margins from singularities that the whole path keeps, proved.
     pub margins: Margins,
 }
 
@@ -75,7 +75,7 @@ pub(super) const FINAL: usize = 100_000;
 /// How often a way is looked for again because a segment of it does not keep the margins.
 const DETOURS: usize = 200;
 
-/// What proves segments.
+/// The proof of segments by intervals.
 pub(super) struct Proof<'a> {
     pub robot: &'a Robot,
     pub window: &'a Window,
@@ -107,7 +107,8 @@ impl<'a> Planner<'a> {
         Self { analysis, roadmaps: analysis.classes.iter().map(|_| Vec::new()).collect() }
     }
 
-    /// What the ends of a path in `mode` tell before any aspects are known: the sign of det A at both.
+    /// Returns the sign of det A that both ends of a path in `mode` have, which is known before any aspects
+    /// are.
     ///
     /// # Errors
     /// [`Refusal`]: what is wrong with an end, or that signs of det A differ, which proves that there is no path.
@@ -121,7 +122,7 @@ impl<'a> Planner<'a> {
         refusal::common_sign(robot, window, mode, ends, options.margins)
     }
 
-    /// What it plans over.
+    /// Returns the analysis that it plans over.
     pub fn analysis(&self) -> &'a Analysis {
         self.analysis
     }

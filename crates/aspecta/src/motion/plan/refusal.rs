@@ -13,9 +13,9 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum End {
-    /// Where it begins.
+    /// The start.
     Start,
-    /// Where it ends.
+    /// The goal.
     Goal,
 }
 
@@ -33,7 +33,7 @@ pub enum Refusal {
     Pose {
         /// Which.
         end: End,
-        /// What is wrong.
+        /// The error.
         error: KinematicsError,
     },
     /// No working mode that was analysed.
@@ -82,7 +82,7 @@ pub enum Refusal {
         det_a: DetSign,
         /// The [`crate::aspect::Aspect::id`] of the start.
         start: usize,
-        /// That of the goal.
+        /// The aspect of the goal.
         goal: usize,
     },
     /// Neither a path nor a proof that there is none.
@@ -113,7 +113,7 @@ pub enum Refusal {
     /// A path was found, but one of its segments could not be proved.
     #[error("undecided: a path was found, but not proved from {pose:?} on")]
     Unproved {
-        /// Where the segment begins.
+        /// The pose at which the segment begins.
         pose: Vec<f64>,
     },
 }

@@ -10,8 +10,9 @@ use aspecta_robot::num::padded;
 use aspecta_robot::work;
 use std::collections::{HashMap, HashSet};
 
-/// What a unit of length is taken to cost on what is left of a way. A unit costs 1 at least, seldom less than twice that; looking ahead so
-/// a search sees a third of the boxes, and what it gives away the way gets back when it is made shorter.
+/// The cost that is assumed of a unit of length on the rest of a way. A unit costs 1 at least, seldom less
+/// than twice that; looking ahead so a search sees a third of the boxes, and what it gives away the way gets
+/// back when it is made shorter.
 const AHEAD: f64 = 2.5;
 
 /// A box that is proved to lie in the class.
@@ -49,9 +50,9 @@ impl Roadmap {
     /// The boxes of class `class` (index into [`Analysis::classes`]) that lie in it, not deeper than `depth`.
     pub fn new(analysis: &Analysis, class: usize, depth: u32, cost: &Cost<'_, 3>) -> Self {
         let (paving, bit) = analysis.paving_of(class);
-        let sight = sight(bit, depth);
+        let classify = classify(bit, depth);
         let mut nodes = Vec::new();
-        paving.boxes_of(&sight, &mut |node| nodes.push(node));
+        paving.boxes_of(&classify, &mut |node| nodes.push(node));
         nodes.sort_unstable();
         let spot = |&node: &u32| {
             let (lo, hi) = paving.bounds(node);
@@ -62,7 +63,7 @@ impl Roadmap {
         let spots: Vec<Spot> = nodes.iter().map(spot).collect();
         let mut pairs = Vec::new();
         let place = |node: u32| nodes.binary_search(&node).unwrap_or(0) as u32;
-        paving.touching(&sight, &mut |a, b| {
+        paving.touching(&classify, &mut |a, b| {
             let (a, b) = (place(a), place(b));
             pairs.extend([(a, b), (b, a)]);
         });
@@ -83,7 +84,8 @@ impl Roadmap {
         self.name_pieces();
     }
 
-    /// Joins pieces by climbs: from the largest box of each, until another piece is met. False if that was done before.
+    /// Joins pieces by climbs: from the largest box of each, until another piece is met. False if that was
+    /// done before.
     pub fn build_bridges(&mut self, analysis: &Analysis) -> bool {
         if self.bridges.is_some() {
             return false;
@@ -155,12 +157,12 @@ impl Roadmap {
     /// The spot whose box holds a pose.
     pub fn holding(&self, analysis: &Analysis, pose: &[f64]) -> Option<u32> {
         let (paving, bit) = analysis.paving_of(self.class);
-        let (node, _) = paving.find(&sight(bit, self.depth), pose)?;
+        let (node, _) = paving.find(&classify(bit, self.depth), pose)?;
         self.nodes.binary_search(&node).ok().map(|spot| spot as u32)
     }
 
-    /// A cheap way from a spot to another (A*; at most [`AHEAD`] times as dear as the cheapest), both ends included, over spots whose centres keep the margins; none through
-    /// `blocked` pairs.
+    /// A cheap way from a spot to another (A*; at most [`AHEAD`] times as dear as the cheapest), both ends
+    /// included, over spots whose centres keep the margins; none through `blocked` pairs.
     pub fn way(
         &self,
         cost: &Cost<'_, 3>,
@@ -191,7 +193,8 @@ impl Roadmap {
 }
 
 impl Spot {
-    /// Where this box and one that touches it meet: the middle of their common part, with their centres turned to be `here` and `there`.
+    /// Returns the meeting point of this box and one that touches it: the middle of their common part, with
+    /// their centres turned to be `here` and `there`.
     pub fn meeting(&self, other: &Self, here: &Pose, there: &Pose) -> Pose {
         std::array::from_fn(|k| {
             let lo = (here[k] - self.half[k]).max(there[k] - other.half[k]);
@@ -202,7 +205,7 @@ impl Spot {
 }
 
 /// The boxes inside a class, not deeper than `depth`.
-fn sight(class: ClassSet, depth: u32) -> impl Fn(&Node) -> Mark {
+fn classify(class: ClassSet, depth: u32) -> impl Fn(&Node) -> Mark {
     move |node| match node.of_classes(class) {
         Mark::Open if node.first_child == 0 || u32::from(node.depth) >= depth => Mark::Outside,
         mark @ (Mark::Inside | Mark::Outside | Mark::Open) => mark,

@@ -1,5 +1,5 @@
-//! From a way over boxes to a path that is worth driving: waypoints are left out and moved, each time the segments that
-//! change are proved anew.
+//! From a way over boxes to a path that is worth driving: waypoints are left out and moved, each time the
+//! segments that change are proved anew.
 
 use super::Proof;
 use super::cost::Cost;
@@ -10,7 +10,7 @@ const APART: f64 = 0.2;
 const STEP: f64 = 0.04;
 /// Rounds of moves.
 const ROUNDS: usize = 5;
-/// What a path may cost more, as a share, if that leaves out waypoints.
+/// The share by which a path may cost more if that leaves out waypoints.
 const THINNING: f64 = 0.01;
 
 /// A path of proved segments, made cheaper; its ends stay.
@@ -50,8 +50,8 @@ fn thin<const K: usize>(proof: &Proof<'_>, cost: &Cost<'_, K>, mut path: Vec<[f6
     path
 }
 
-/// Goes from each waypoint straight to the furthest later one, doubling the number of waypoints that are left out as long as that is
-/// proved and no dearer.
+/// Goes from each waypoint straight to the furthest later one, doubling the number of waypoints that are left
+/// out as long as that is proved and no dearer.
 fn shortcut<const K: usize>(proof: &Proof<'_>, cost: &Cost<'_, K>, path: Vec<[f64; K]>) -> Vec<[f64; K]> {
     let mut dear = vec![0.0];
     for ends in path.windows(2) {
@@ -83,7 +83,7 @@ fn shortcut<const K: usize>(proof: &Proof<'_>, cost: &Cost<'_, K>, path: Vec<[f6
     short
 }
 
-/// The same path with more waypoints.
+/// Returns the path with more waypoints.
 fn subdivide<const K: usize>(cost: &Cost<'_, K>, path: &[[f64; K]]) -> Vec<[f64; K]> {
     let mut fine = vec![path[0]];
     for ends in path.windows(2) {
