@@ -1,8 +1,8 @@
 //! Making and freeing handles.
 
 use crate::{aspecta_follower, aspecta_inverse};
-use aspecta_robot::WorkingMode;
 use aspecta_kinematics::follow::{Follower, InverseFollower};
+use aspecta_robot::WorkingMode;
 use aspecta_robot::{Robot, catalogue};
 use std::ffi::{CStr, c_char};
 

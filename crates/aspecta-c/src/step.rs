@@ -4,8 +4,8 @@ use crate::aspecta_status::{
     self, ASPECTA_BAD_INPUT, ASPECTA_NULL, ASPECTA_OK, ASPECTA_PARALLEL, ASPECTA_SERIAL, ASPECTA_TOO_LONG,
 };
 use crate::{aspecta_follower, aspecta_inverse};
-use aspecta_robot::WorkingMode;
 use aspecta_kinematics::follow::Refusal;
+use aspecta_robot::WorkingMode;
 use std::ffi::c_int;
 
 /// What is said of a step.

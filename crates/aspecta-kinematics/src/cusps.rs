@@ -43,6 +43,7 @@ pub struct Options {
 
 /// Why cusps cannot be looked for.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum CuspError {
     /// Six degrees of freedom.
     #[error("robot `{robot}` has {dof} degrees of freedom: cusps are found for 2 and 3")]
@@ -100,6 +101,7 @@ pub enum CuspError {
 
 /// All cusps of a robot, or of a slice in which joints are held.
 #[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
 pub struct Cusps {
     /// Robot name.
     pub robot: String,
@@ -152,6 +154,7 @@ pub enum Proof {
 /// A cusp, *certified*: intervals prove that exactly one is in `enclosure`, and that exactly three direct solutions meet
 /// there (it is an ordinary cusp).
 #[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
 pub struct Cusp {
     /// The working mode.
     pub mode: WorkingMode,

@@ -71,6 +71,7 @@ pub struct Solution {
 
 /// Input that does not fit the robot.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum KinematicsError {
     /// Wrong number of coordinates.
     #[error("robot `{robot}` has {wanted} {what} coordinates ({names}), not {found}")]

@@ -56,6 +56,7 @@ impl Singularity {
 /// in A are taken about the platform's origin, so they do depend on which point of a turning
 /// platform is its origin.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct State {
     /// X; angles in rad.
     pub pose: Vec<f64>,

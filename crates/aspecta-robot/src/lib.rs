@@ -72,6 +72,7 @@ pub struct Robot {
 
 /// Why legs and a platform do not make a robot.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum RobotError {
     /// n legs for n degrees of freedom.
     #[error("platform `{platform}` has {wanted} degrees of freedom and needs {wanted} legs, not {found}")]

@@ -5,6 +5,7 @@ use crate::num::written;
 
 /// Why a robot, or a slice of it, has no window to pave.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum SliceError {
     /// A free coordinate has no bounds.
     #[error(transparent)]

@@ -6,6 +6,8 @@ use serde::Serialize;
 
 /// The outcome of a check.
 #[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
+#[must_use = "a certificate is verified only if the verdict says so"]
 pub struct Verdict {
     /// Whether the check was carried to its end.
     pub complete: bool,

@@ -82,9 +82,9 @@ pub use aspecta_verify::certificate;
 
 // The front door, in the order in which a robot goes through it.
 #[doc(inline)]
-pub use aspecta_kinematics::cusps::{Cusps, Options as CuspOptions, cusps};
-#[doc(inline)]
 pub use aspecta_kinematics::constraints::Margins;
+#[doc(inline)]
+pub use aspecta_kinematics::cusps::{Cusps, Options as CuspOptions, cusps};
 #[doc(inline)]
 pub use aspecta_kinematics::follow::{Follower, InverseFollower};
 #[doc(inline)]

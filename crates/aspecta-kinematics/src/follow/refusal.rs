@@ -86,6 +86,7 @@ pub enum Refusal {
 
 /// Why following cannot start.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum StartError {
     /// The pose or the joint vector does not fit the robot.
     #[error(transparent)]

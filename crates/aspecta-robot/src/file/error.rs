@@ -7,6 +7,7 @@ use std::fmt;
 
 /// Why a robot could not be had.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum FileError {
     /// The file does not exist or cannot be read as text.
     #[error("{file}: cannot be read: {reason}")]

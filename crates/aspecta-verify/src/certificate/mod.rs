@@ -91,6 +91,7 @@ pub struct Seam {
 
 /// Why a file is no certificate.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum CertificateError {
     /// The file cannot be read.
     #[error("cannot read `{}`: {error}", path.display())]

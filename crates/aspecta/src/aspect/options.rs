@@ -21,7 +21,7 @@ use aspecta_robot::WorkingMode;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
     /// How far the paving goes. Where nothing says when to stop: until the bounds meet, or [`crate::paving::MAX_BOXES`] boxes; 4 million
-    /// where [`Analysis::parallel_rods`], [`Analysis::uncharted_folds`] or [`Analysis::architecturally_singular`] keep the bounds apart.
+    /// where [`Analysis::parallel_rods`](crate::Analysis::parallel_rods), [`Analysis::uncharted_folds`](crate::Analysis::uncharted_folds) or [`Analysis::architecturally_singular`](crate::Analysis::architecturally_singular) keep the bounds apart.
     pub budget: Budget,
     /// Coordinates to hold (index, value), as in [`aspecta_robot::Robot::slice`]: what is analysed are the poses that have these values.
     pub fix: Vec<(usize, f64)>,
@@ -29,6 +29,6 @@ pub struct Options {
     /// those of these modes, and Definitions 5 and 6 are left out, as they are for more modes than one pass takes
     /// ([`crate::paving::MODES`]).
     pub modes: Vec<WorkingMode>,
-    /// Whether to keep the proof: [`Analysis::certificate`]. For up to [`crate::paving::MODES`] working modes.
+    /// Whether to keep the proof: [`Analysis::certificate`](crate::Analysis::certificate). For up to [`crate::paving::MODES`] working modes.
     pub certificate: bool,
 }

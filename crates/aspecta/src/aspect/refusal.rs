@@ -7,6 +7,7 @@ use aspecta_robot::{Robot, SliceError};
 
 /// Why a robot cannot be analysed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum AnalysisError {
     /// The workspace, or the slice of it, has no window.
     #[error(transparent)]

@@ -17,6 +17,7 @@ pub const FORMAT_VERSION: u32 = 1;
 /// Serialises to the JSON of `aspecta analyze --json`. The cells behind it stay in memory:
 /// [`Analysis::cells`].
 #[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
 pub struct Analysis {
     /// [`FORMAT_VERSION`].
     pub format_version: u32,
@@ -218,6 +219,7 @@ pub struct Count {
 
 /// Why the bounds on the number of aspects of a class do not meet.
 #[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
 pub struct Doubt {
     /// The working mode.
     pub mode: WorkingMode,
@@ -329,6 +331,7 @@ pub struct ModeReport {
 
 /// The aspects of one working mode and one sign of det A.
 #[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
 pub struct AspectClass {
     /// The working mode.
     pub mode: WorkingMode,
@@ -348,6 +351,7 @@ pub struct AspectClass {
 
 /// A generalized aspect A_ij, as far as it is proved.
 #[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
 pub struct Aspect {
     /// Number within the whole analysis, from 1.
     pub id: usize,
@@ -399,6 +403,7 @@ pub struct EarlierDomain {
 
 /// How the run went.
 #[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
 pub struct Run {
     /// Boxes classified (all modes of a box count once).
     pub boxes: u64,

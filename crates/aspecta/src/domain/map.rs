@@ -67,6 +67,7 @@ pub struct MappedAspect {
 
 /// The location of a pose in a working mode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
 pub struct Location {
     /// The working mode.
     pub mode: WorkingMode,
@@ -80,6 +81,7 @@ pub struct Location {
 
 /// Why a pose is in no aspect.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum Nowhere {
     /// No pose of this robot.
     #[error(transparent)]

@@ -26,6 +26,7 @@ impl Default for DomainOptions {
 
 /// Why an aspect has no partition.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum DomainError {
     /// No such aspect.
     #[error("there is no aspect {id}: the analysis found {count}, numbered from 1")]
@@ -57,6 +58,7 @@ pub enum DomainError {
 /// slice: the class is taken for one aspect of the whole, which no slice can tell. If it is several, each region is still part of one basic region or
 /// a piece of one, and the uniqueness domains are still such that a joint vector means one pose.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Domains {
     /// The aspect: [`crate::aspect::Aspect::id`].
     pub aspect: usize,
@@ -139,6 +141,7 @@ impl Domains {
 
 /// WAb_ijk.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct BasicRegion {
     /// From 1.
     pub number: usize,
@@ -171,6 +174,7 @@ pub struct Coincidence {
 
 /// Wu_ik.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct UniquenessDomain {
     /// Its regions.
     pub regions: Vec<usize>,

@@ -35,6 +35,7 @@ pub struct AssemblyModes {
 
 /// One direct solution.
 #[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
 pub struct AssemblyMode {
     /// Its number, from 1.
     pub number: usize,

@@ -15,6 +15,7 @@ use std::collections::VecDeque;
 
 /// The aspects of a robot and the crossings between them.
 #[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
 pub struct ModeGraph {
     /// The aspects.
     pub aspects: Vec<GraphAspect>,
@@ -46,6 +47,7 @@ pub struct GraphAspect {
 
 /// A motion through several working modes without a parallel singularity.
 #[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
 pub struct Route {
     /// The motions within one mode, each proved. Each but the last ends at [`Crossing::inside`] of the crossing that follows.
     pub stretches: Vec<Plan>,
@@ -163,6 +165,7 @@ pub struct Configuration<'a> {
 
 /// Why there is no route.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum NoRoute {
     /// One of the motions within a mode.
     #[error("{0}")]

@@ -64,6 +64,7 @@ pub enum Holds {
 
 /// The relation of one class to a set of poses.
 #[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
 pub struct ClassHolds {
     /// The working mode.
     pub mode: WorkingMode,
@@ -76,6 +77,7 @@ pub struct ClassHolds {
 
 /// The aspects in which a set of poses can be traversed.
 #[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
 pub struct Traversability {
     /// The set.
     pub set: PoseSet,

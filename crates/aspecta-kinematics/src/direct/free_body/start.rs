@@ -137,7 +137,7 @@ mod tests {
             };
             let mut text: String = legs.iter().map(|leg| line(&mut leg.iter().copied())).collect();
             text += &found.iter().map(|x| line(&mut (0..8).map(|k| x.get(k)))).collect::<String>();
-            let path = concat!(env!("CARGO_MANIFEST_DIR"), "/src/kinematics/direct/free_body/start.txt");
+            let path = concat!(env!("CARGO_MANIFEST_DIR"), "/src/direct/free_body/start.txt");
             std::fs::write(path, text).unwrap();
             return;
         }

@@ -18,6 +18,7 @@ const EFFORT: usize = 2000;
 
 /// How near a path comes to singularities, up to the first that it meets if it does.
 #[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
 pub struct Clearance {
     /// The least |det A|, in the unit of the leg equations: the paper's.
     pub det_a: Least,

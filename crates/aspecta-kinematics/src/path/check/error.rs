@@ -6,6 +6,7 @@ use aspecta_robot::num::{self, written};
 
 /// Why a path cannot be checked at all.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum PathError {
     /// Too few samples.
     #[error("a path needs at least {wanted}, but {found} given")]

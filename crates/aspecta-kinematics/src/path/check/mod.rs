@@ -37,6 +37,7 @@ pub struct PathOptions {
 
 /// The result of checking a path.
 #[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
 pub struct PathCheck {
     /// How its samples were joined. With [`Joined::None`] all that is said is of the samples alone.
     pub joined: Joined,

@@ -48,6 +48,7 @@ pub struct JointLimits {
 
 /// Why there is no trajectory.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum TimeError {
     /// A limit is not a positive number.
     #[error("the {what} limit of joint {joint} is {}: give a positive number", written(*.value))]

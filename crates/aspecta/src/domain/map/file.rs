@@ -26,6 +26,7 @@ const LARGEST: u64 = 1 << 30;
 
 /// Why a file is no map.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum MapError {
     /// Not compressed, or damaged.
     #[error("damaged, or not a map of a robot's aspects: {0}")]

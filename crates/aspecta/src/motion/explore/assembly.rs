@@ -21,7 +21,7 @@ pub struct JoinedSolutions {
     pub q: Vec<f64>,
     /// Whether it is proved that these are all.
     pub complete: bool,
-    /// The solutions, as [`Robot::direct`] orders them.
+    /// The solutions, as [`Kinematics::direct`](aspecta_kinematics::Kinematics::direct) orders them.
     pub solutions: Vec<NumberedSolution>,
     /// The classes they lie in.
     pub classes: Vec<SharedClass>,

@@ -92,6 +92,7 @@ pub enum End {
 
 /// Why a robot cannot be explored.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ExploreError {
     /// Other platforms have few enough coordinates for boxes.
     #[error(
@@ -119,6 +120,7 @@ pub enum ExploreError {
 
 /// The result of exploring a robot's pose space.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Exploration {
     /// The robot's name.
     pub robot: String,
@@ -130,6 +132,7 @@ pub struct Exploration {
 
 /// The result of exploring a class of aspects.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ExploredClass {
     /// The working mode.
     pub mode: WorkingMode,

@@ -46,6 +46,7 @@ impl Default for PlanOptions {
 
 /// A path within one aspect: straight segments in pose coordinates, each proved to stay in it and to keep the margins.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Plan {
     /// The working mode.
     pub mode: WorkingMode,

@@ -27,6 +27,7 @@ impl fmt::Display for End {
 
 /// Why there is no plan. [`Refusal::is_proof`] tells which of these prove that none exists.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum Refusal {
     /// No pose of this robot.
     #[error("the {end}: {error}")]
