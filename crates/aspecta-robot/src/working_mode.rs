@@ -155,3 +155,22 @@ impl<'de> Deserialize<'de> for WorkingMode {
         String::deserialize(d)?.parse().map_err(serde::de::Error::custom)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Each choice of the postures of some legs, and which modes make the same.
+    #[test]
+    fn legs_choose_their_postures() {
+        let choices =
+            |legs: LegSet| legs.choices(3).map(|mode| mode.to_string()).collect::<Vec<_>>().join(" ");
+        assert_eq!(choices(LegSet::NONE), "+++");
+        assert_eq!(choices(LegSet::of(1)), "+++ +-+");
+        assert_eq!(choices(LegSet::ALL).split(' ').count(), 8);
+        let [a, b] = ["+-+", "--+"].map(|mode| mode.parse().unwrap());
+        assert!(
+            LegSet::of(1).are_alike(a, b) && !LegSet::of(0).are_alike(a, b) && !LegSet::ALL.are_alike(a, b)
+        );
+    }
+}

@@ -8,6 +8,7 @@ use crate::certificate::{Claim, Entry, Join, Leaf};
 use aspecta::aspect::{Options, analyze};
 use aspecta::paving::Budget;
 use aspecta_robot::ClassSet;
+use aspecta_robot::constraint::Constraint;
 use aspecta_robot::num::Scalar;
 use aspecta_robot::{Leg as RobotLeg, Limit, Platform, Revolute, Robot, catalogue};
 use proptest::prelude::*;
@@ -390,4 +391,22 @@ fn truncated_files_are_refused() {
 fn a_cancelled_check_proves_nothing() {
     let verdict = verify(&COARSE, &Control { cancelled: &AtomicBool::new(true), progress: &|_| {} });
     assert!(!verdict.complete && !verdict.is_verified());
+}
+
+/// The list that the search and this program share forgets no leg and no limit: nothing here would notice.
+#[test]
+fn every_leg_and_limit_is_listed() {
+    let sphere = include_str!("../../aspecta/tests/fixtures/limited_sphere.toml");
+    let limited = Robot::from_toml(sphere, "limited_sphere.toml").unwrap();
+    let known = catalogue::all().iter().map(|entry| catalogue::find(entry.name).unwrap());
+    for robot in known.chain([limited]) {
+        let mut expected = vec![Constraint::Det];
+        for (j, leg) in robot.legs.iter().enumerate() {
+            expected.extend((leg.actuator.postures() == 2).then_some(Constraint::Reach(j)));
+            expected.extend((0..leg.limits.len()).map(|k| Constraint::Limit(j, k)));
+        }
+        let listed: Vec<_> = Constraint::of(&robot).collect();
+        assert_eq!(listed.len(), expected.len(), "{}", robot.name);
+        assert!(expected.iter().all(|constraint| listed.contains(constraint)), "{}: {listed:?}", robot.name);
+    }
 }

@@ -5,7 +5,7 @@ use crate::modal::{LegClosure, closures};
 use crate::placement::Placement;
 use aspecta_robot::Robot;
 use aspecta_robot::WorkingMode;
-use aspecta_robot::num::{Interval, Scalar};
+use aspecta_robot::num::{Interval, Jet, Scalar};
 
 /// A configuration, or a box of them: the pose and the postures of the legs.
 #[derive(Clone, Copy)]
@@ -49,6 +49,24 @@ impl<'a, T: Scalar, const D: usize, const N: usize> Configuration<'a, T, D, N> {
         match constraint {
             Constraint::Limit(j, k) => unit(&self.robot.legs[j].limits[k], &self.leg(j), self.height(j)),
             Constraint::Reach(_) | Constraint::Det => T::constant(Interval::ENTIRE),
+        }
+    }
+
+    /// The derivative of margin / unit with respect to s h of leg `of`, on which it depends, at a fixed pose. `value` is what it is of
+    /// functions of the pose: they count as numbers.
+    pub fn by_height<U: Scalar>(&self, constraint: Constraint, of: usize, value: impl Fn(T) -> U) -> U {
+        let still = |f: T| Jet::<U, 1>::fixed(value(f));
+        let height = |j: usize| match j == of {
+            true => Jet::variable(value(self.height(j)), 0),
+            false => still(self.height(j)),
+        };
+        match constraint {
+            Constraint::Limit(j, k) => {
+                let (leg, placement, sh) = (self.legs[j].map(still), self.placement.map(still), height(j));
+                let (limit, at) = (&self.robot.legs[j].limits[k], LegAt::of(&self.robot.legs[j], &leg));
+                (margin(limit, &at, sh, &placement) / unit(limit, &at, sh)).gradient[0]
+            }
+            Constraint::Reach(_) | Constraint::Det => U::constant(Interval::ENTIRE),
         }
     }
 

@@ -76,6 +76,15 @@ impl Constraint {
         }
     }
 
+    /// A number by which neighbours of one kind are told apart, in colours say.
+    pub fn order(self) -> usize {
+        match self {
+            Self::Reach(j) => j,
+            Self::Limit(j, k) => j + k,
+            Self::Det => 0,
+        }
+    }
+
     /// Whether it says something of the driven joints alone, wherever the platform is.
     pub fn is_of_drives(self, robot: &Robot) -> bool {
         match self {

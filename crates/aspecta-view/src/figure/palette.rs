@@ -1,7 +1,7 @@
 //! Colours that colour-blind readers can tell apart.
 
 use aspecta::domain::boundary::Face;
-use aspecta::kinematics::constraints::Constraint;
+use aspecta::kinematics::constraints::Kind;
 
 /// Okabe & Ito's colours (without black), then those of Tol's *muted* scheme that stay distinct from them.
 const ASPECTS: [&str; 12] = [
@@ -63,9 +63,11 @@ pub fn face(face: Face) -> &'static str {
     const SERIAL: [&str; 6] = ["#0072b2", "#009e73", "#56b4e9", "#332288", "#44aa99", "#999933"];
     const LIMITS: [&str; 4] = ["#e69f00", "#cc79a7", "#f0e442", "#882255"];
     match face {
-        Face::Of(Constraint::Det) => "#d55e00",
-        Face::Of(Constraint::Reach(leg)) => SERIAL[leg % SERIAL.len()],
-        Face::Of(Constraint::Limit(leg, limit)) => LIMITS[(leg + limit) % LIMITS.len()],
+        Face::Of(constraint) => match constraint.kind() {
+            Kind::Parallel => "#d55e00",
+            Kind::Serial(leg) => SERIAL[leg % SERIAL.len()],
+            Kind::Limit => LIMITS[constraint.order() % LIMITS.len()],
+        },
         Face::Cut { .. } => UNDECIDED,
     }
 }

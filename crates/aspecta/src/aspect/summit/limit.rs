@@ -4,10 +4,8 @@ use super::form::{Field, Form, range};
 use super::view::View;
 use arrayvec::ArrayVec;
 use aspecta_kinematics::constraints::{Configuration, Constraint};
-use aspecta_kinematics::modal::LegClosure;
-use aspecta_kinematics::placement::Placement;
 use aspecta_robot::WorkingMode;
-use aspecta_robot::num::{Jet, Pack, Slope, each};
+use aspecta_robot::num::Pack;
 
 /// A limit's margin.
 pub(super) struct LimitPart<const N: usize, const M: usize> {
@@ -32,7 +30,7 @@ impl<const N: usize, const M: usize> LimitPart<N, M> {
         let at = Configuration { robot, placement, legs, heights, mode };
         let field = Field::of(&(at.margin(constraint) / at.unit(constraint)));
         let legs = (0..N).filter(|&j| constraint.postures().holds(j));
-        let own = legs.map(|j| (j, by_height(view, heights, constraint, mode, j))).collect();
+        let own = legs.map(|j| (j, range(at.by_height(constraint, j, |f| f.value)))).collect();
         Self { constraint, mode, field, own }
     }
 
@@ -44,39 +42,5 @@ impl<const N: usize, const M: usize> LimitPart<N, M> {
     /// Whether this is the limit in the postures of `mode`.
     pub(super) fn is_in(&self, mode: WorkingMode) -> bool {
         self.constraint.postures().are_alike(self.mode, mode)
-    }
-}
-
-/// The derivative of a limit's margin with respect to s h of leg j.
-fn by_height<const D: usize, const N: usize, const M: usize>(
-    view: &View<'_, D, N, M>,
-    heights: &[[Form<M>; 2]; N],
-    constraint: Constraint,
-    mode: WorkingMode,
-    j: usize,
-) -> Pack {
-    let Still { placement, legs } = &**view.still.get_or_init(|| Box::new(Still::of(view)));
-    let of_leg = |i: usize, sh: Form<M>| if i == j { Jet::variable(sh.value, 0) } else { still(sh) };
-    let heights: [[Jet<Slope<Pack, M>, 1>; 2]; N] =
-        std::array::from_fn(|i| each!(|posture| of_leg(i, heights[i][posture])));
-    let at = Configuration { robot: view.robot, placement, legs, heights: &heights, mode };
-    range((at.margin(constraint) / at.unit(constraint)).gradient[0])
-}
-
-/// Constant but for a variable of its own.
-fn still<const M: usize>(f: Form<M>) -> Jet<Slope<Pack, M>, 1> {
-    Jet::fixed(f.value)
-}
-
-/// The robot over eight boxes while nothing moves but some s h.
-pub(super) struct Still<const D: usize, const N: usize, const M: usize> {
-    placement: Placement<Jet<Slope<Pack, M>, 1>, D>,
-    legs: [LegClosure<Jet<Slope<Pack, M>, 1>, D>; N],
-}
-
-impl<const D: usize, const N: usize, const M: usize> Still<D, N, M> {
-    fn of(view: &View<'_, D, N, M>) -> Self {
-        let legs = std::array::from_fn(|j| view.legs[j].map(still));
-        Self { placement: view.placement.map(still), legs }
     }
 }

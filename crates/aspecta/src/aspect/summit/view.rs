@@ -1,7 +1,6 @@
 //! The robot over eight boxes, with derivatives that stay bounded at serial singularities.
 
 use super::form::{Field, Form};
-use super::limit::Still;
 use crate::paving::Paving;
 use aspecta_kinematics::chart::Coordinates;
 use aspecta_kinematics::constraints::Scale;
@@ -9,7 +8,6 @@ use aspecta_kinematics::modal::LegClosure;
 use aspecta_kinematics::placement::{Placement, out_of_frame, wrench};
 use aspecta_robot::Robot;
 use aspecta_robot::num::{Interval, LANES, Mask, Pack, Scalar, Slope, each};
-use std::cell::OnceCell;
 
 /// The robot over eight boxes.
 pub(super) struct View<'a, const D: usize, const N: usize, const M: usize> {
@@ -32,8 +30,6 @@ pub(super) struct View<'a, const D: usize, const N: usize, const M: usize> {
     pub rooted: [bool; N],
     /// Lanes in which every row of A is bounded.
     pub usable: Mask,
-    /// The place at which limits are differentiated by s h, once that is asked for.
-    pub still: OnceCell<Box<Still<D, N, M>>>,
 }
 
 impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
@@ -67,7 +63,6 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
             fixed: [[Form::zero(); N]; N],
             swing: [[Form::zero(); N]; N],
             usable: [true; LANES],
-            still: OnceCell::new(),
         };
         (0..N).for_each(|j| view.set_rows(j));
         view
