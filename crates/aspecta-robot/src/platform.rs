@@ -14,15 +14,6 @@ use std::fmt;
 /// | `free-body` | SE(3) | x, y, z, roll, pitch, yaw | Hexa, Gough-Stewart |
 ///
 /// Angles are in radians. Spatial orientations are R = R_z(yaw) R_y(pitch) R_x(roll).
-///
-/// # Examples
-/// ```
-/// use aspecta_robot::Platform;
-///
-/// let names: Vec<&str> = Platform::PlaneBody.coordinates().iter().map(|c| c.name).collect();
-/// assert_eq!(names, ["x", "y", "phi"]);
-/// assert_eq!((Platform::FreeBody.dof(), Platform::FreeBody.to_string()), (6, "free-body".to_owned()));
-/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Platform {
@@ -71,6 +62,15 @@ impl Platform {
         [Self::PlanePoint, Self::PlaneBody, Self::TranslatingBody, Self::TurningBody, Self::FreeBody];
 
     /// The pose coordinates, in the order in which poses are written.
+    ///
+    /// # Examples
+    /// ```
+    /// use aspecta_robot::Platform;
+    ///
+    /// let names: Vec<&str> = Platform::PlaneBody.coordinates().iter().map(|c| c.name).collect();
+    /// assert_eq!(names, ["x", "y", "phi"]);
+    /// assert_eq!((Platform::FreeBody.dof(), Platform::FreeBody.to_string()), (6, "free-body".to_owned()));
+    /// ```
     pub const fn coordinates(self) -> &'static [Coordinate] {
         match self {
             Self::PlanePoint => &[X, Y],

@@ -18,7 +18,7 @@
 //!
 //! ```
 //! use aspecta::kinematics::Solution;
-//! use aspecta::robot::Robot;
+//! use aspecta::{Kinematics, Robot};
 //!
 //! let robot = Robot::resolve("five-bar")?;
 //! let start: Vec<Solution> = robot.inverse(&[2.0, 8.0])?;

@@ -45,7 +45,7 @@
 //!
 //! # The inverse step
 //!
-//! Poses are joined by a straight segment in pose coordinates, as in [`check_path`](super::check_path). If
+//! Poses are joined by a straight segment in pose coordinates, as in [`check_path`](crate::path::check_path). If
 //! H_j > 0 in intervals on stretches that cover it, the solution of each leg is one continuous function
 //! ([`eliminate`](aspecta_robot::legs::Actuator::eliminate)). If the vector (cos q_j, sin q_j) · weight of a
 //! stretch lies in a box that does not hold the origin and is seen from there under an angle below π, then
