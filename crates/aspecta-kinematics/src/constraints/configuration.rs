@@ -62,7 +62,10 @@ impl<'a, T: Scalar, const D: usize, const N: usize> Configuration<'a, T, D, N> {
         };
         match constraint {
             Constraint::Limit(j, k) => {
-                let (leg, placement, sh) = (self.legs[j].map(still), self.placement.map(still), height(j));
+                // One by one: as a tuple they would be copied twice, which is seen in the proof that nothing is hidden.
+                let leg = self.legs[j].map(still);
+                let placement = self.placement.map(still);
+                let sh = height(j);
                 let (limit, at) = (&self.robot.legs[j].limits[k], LegAt::of(&self.robot.legs[j], &leg));
                 (margin(limit, &at, sh, &placement) / unit(limit, &at, sh)).gradient[0]
             }
