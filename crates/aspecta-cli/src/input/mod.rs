@@ -1,5 +1,6 @@
 //! Robots, modes and numbers from the command line and from CSV files.
 
+mod fields;
 mod rows;
 
 pub use rows::{Row, Rows, rows};

@@ -1,9 +1,9 @@
 //! CSV files of vectors, line by line.
 
 use super::Columns;
+use super::fields::Fields;
 use crate::failure::Failure;
 use aspecta_view::words::count;
-use csv::{ReaderBuilder, StringRecord};
 use std::fmt::Display;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader};
@@ -32,6 +32,7 @@ pub struct Rows<'a> {
     name: &'a str,
     lines: Box<dyn Iterator<Item = io::Result<String>>>,
     line: u64,
+    fields: Fields,
     layouts: &'a [Columns],
     shape: Option<Shape>,
     degrees: bool,
@@ -51,7 +52,8 @@ impl<'a> Rows<'a> {
             }
         };
         let name = if path == "-" { "stdin" } else { path };
-        Ok(Self { name, lines, line: 0, layouts, shape: None, degrees, ended: false, any: false })
+        let fields = Fields::default();
+        Ok(Self { name, lines, line: 0, fields, layouts, shape: None, degrees, ended: false, any: false })
     }
 
     /// A message about a line.
@@ -61,9 +63,10 @@ impl<'a> Rows<'a> {
 
     /// The row of a line, if it holds one.
     fn read(&mut self, text: &str) -> Result<Option<Row>, String> {
-        let Some(record) = record(text).map_err(|e| e.to_string())? else { return Ok(None) };
+        let Some(text) = record(text) else { return Ok(None) };
         // Quotes after a blank are part of a field to the reader.
-        let fields: Vec<&str> = record.iter().map(|field| field.trim().trim_matches('"').trim()).collect();
+        let fields: Vec<&str> =
+            self.fields.of(text).map(|field| field.trim().trim_matches('"').trim()).collect();
         if let [whole] = fields[..]
             && let Some(separator) = [';', '\t'].into_iter().find(|c| whole.contains(*c))
         {
@@ -115,17 +118,9 @@ impl Iterator for Rows<'_> {
 }
 
 /// The record in a line, or `None` if it is empty or a comment; a spreadsheet's byte order mark is skipped.
-///
-/// Lines are read one by one, as no field goes over several: so a stream is answered as it comes, and a
-/// line's number is known though lines are skipped before it.
-fn record(line: &str) -> Result<Option<StringRecord>, csv::Error> {
+fn record(line: &str) -> Option<&str> {
     let line = line.trim_start_matches('\u{feff}').trim();
-    if line.is_empty() || line.starts_with('#') {
-        return Ok(None);
-    }
-    let reader =
-        ReaderBuilder::new().has_headers(false).buffer_capacity(line.len()).from_reader(line.as_bytes());
-    reader.into_records().next().transpose()
+    (!line.is_empty() && !line.starts_with('#')).then_some(line)
 }
 
 /// The positions of the wanted columns in a file.
