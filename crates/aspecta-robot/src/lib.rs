@@ -19,6 +19,8 @@ pub mod num;
 mod platform;
 mod slice;
 mod sound;
+#[doc(hidden)]
+pub mod text;
 mod window;
 pub mod work;
 mod working_mode;

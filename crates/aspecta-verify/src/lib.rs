@@ -59,6 +59,7 @@ mod place;
 mod summit;
 #[cfg(test)]
 mod tests;
+mod text;
 mod verdict;
 
 pub use verdict::{Checked, Counts, Fault, Verdict};

@@ -1,7 +1,7 @@
 //! The result of a check.
 
 use crate::certificate::{Certificate, Claim};
-use aspecta_robot::WorkingMode;
+use aspecta_robot::{Robot, Window, WorkingMode};
 use serde::Serialize;
 
 /// The outcome of a check.
@@ -9,6 +9,15 @@ use serde::Serialize;
 #[non_exhaustive]
 #[must_use = "a certificate is verified only if the verdict says so"]
 pub struct Verdict {
+    /// The robot of the certificate.
+    #[serde(skip)]
+    pub robot: Robot,
+    /// Its poses that the certificate is about.
+    #[serde(skip)]
+    pub window: Window,
+    /// Its working modes that the certificate is about, in the order of the classes.
+    #[serde(skip)]
+    pub modes: Vec<WorkingMode>,
     /// Whether the check was carried to its end.
     pub complete: bool,
     /// Faults found, up to a few dozen: none is a proof of what is claimed, if the check is complete.
@@ -117,6 +126,9 @@ impl Verdict {
         let (joins, seams) = (certificate.joins.len(), certificate.seams.len());
         let sheets = certificate.sheets.len();
         Self {
+            robot: certificate.robot.clone(),
+            window: certificate.window.clone(),
+            modes: certificate.modes.clone(),
             complete: false,
             faults: vec![],
             sheets,

@@ -48,6 +48,6 @@ pub use domains::{Choice, MeshFormat, write as write_domains};
 pub use export::mjcf;
 pub use figure::cut::Cut;
 pub use figure::graph::mode_graph;
-pub use figure::profile::{failure, figure_11};
+pub use figure::profile::figure_11;
 pub use report::motion::Motion;
 pub use report::write as write_report;

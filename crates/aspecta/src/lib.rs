@@ -54,6 +54,9 @@
 //! | which pose now? in a control loop | [`Follower`], [`InverseFollower`] |
 //! | the whole pose space of a robot with six coordinates | [`explore()`] |
 //!
+//! Results print (`{}`) as the summary that the terminal shows: [`Analysis`], [`Domains`], [`PathCheck`], [`Plan`] and [`Route`], [`Verdict`];
+//! with angles in degrees as [`PathSummary`] and [`RouteSummary`].
+//!
 //! The names of this page are the front door, and what a version promises. The modules hold what they are made of, and
 //! the types of their fields: data flows one way, [`robot`] → [`kinematics`] → [`paving`] → [`aspect`] → [`domain`] →
 //! [`motion`], and beside it stands [`verify`](mod@verify), which shares next to nothing with the rest and checks what
@@ -90,7 +93,9 @@ pub use aspecta_kinematics::follow::{Follower, InverseFollower};
 #[doc(inline)]
 pub use aspecta_kinematics::path::time::{JointLimits, Trajectory, trajectory};
 #[doc(inline)]
-pub use aspecta_kinematics::path::{Joined, PathCheck, PathOptions, check_joints, check_path, check_poses};
+pub use aspecta_kinematics::path::{
+    Joined, PathCheck, PathOptions, PathSummary, check_joints, check_path, check_poses,
+};
 #[doc(inline)]
 pub use aspecta_kinematics::{DirectSolutions, Kinematics, Singularity, Solution, State};
 #[doc(inline)]
@@ -111,3 +116,4 @@ pub use motion::modes::{ModeGraph, Route};
 pub use motion::plan::{Plan, PlanOptions, Planner};
 pub use motion::traverse::{PoseSet, Traversability, traversability};
 pub use paving::Budget;
+pub use text::RouteSummary;

@@ -5,7 +5,6 @@ use super::robot::RobotArg;
 use crate::failure::Failure;
 use crate::input::{self, Columns};
 use aspecta::motion::{Joined, PathCheck, PathError, PathOptions, check_joints, check_poses};
-use aspecta::robot::Robot;
 use clap::{Args, ValueEnum};
 
 /// Which path, and what is asked of it.
@@ -51,8 +50,8 @@ enum How {
 }
 
 impl PathArgs {
-    /// Reads the path and checks it: the robot, how many lines there are, and what was found.
-    pub fn check(&self) -> Result<(Robot, usize, PathCheck), Failure> {
+    /// Reads the path and checks it.
+    pub fn check(&self) -> Result<PathCheck, Failure> {
         let robot = self.robot.load()?;
         let options = PathOptions { joined: self.joined(), margins: self.away.margins()? };
         let mode = self.from.mode.as_deref().map(|m| input::mode(&robot, m)).transpose()?;
@@ -73,16 +72,10 @@ impl PathArgs {
             )));
         }
         let lines: Vec<_> = rows.into_iter().map(|row| row.values).collect();
-        let check = match mode {
-            Some(mode) => check_poses(&robot, &lines, mode, &options)?,
-            None => check_joints(&robot, &lines, start.as_deref(), &options).map_err(with_advice)?,
-        };
-        Ok((robot, lines.len(), check))
-    }
-
-    /// Whether the lines are joint vectors.
-    pub fn is_of_joints(&self) -> bool {
-        self.from.mode.is_none()
+        match mode {
+            Some(mode) => Ok(check_poses(&robot, &lines, mode, &options)?),
+            None => check_joints(&robot, &lines, start.as_deref(), &options).map_err(with_advice),
+        }
     }
 
     pub fn joined(&self) -> Joined {
@@ -90,16 +83,6 @@ impl PathArgs {
             How::Straight => Joined::Straight,
             How::Spline => Joined::Spline,
             How::None => Joined::None,
-        }
-    }
-
-    /// Returns a description of the path, such as `3 poses joined by straight segments`.
-    pub fn describe(&self, lines: usize) -> String {
-        let what = if self.is_of_joints() { "joint vectors" } else { "poses" };
-        match self.joined {
-            How::Straight => format!("{lines} {what} joined by straight segments"),
-            How::Spline => format!("{lines} {what} joined by a spline"),
-            How::None => format!("{lines} {what}, each by itself: nothing is claimed of what lies between"),
         }
     }
 }

@@ -13,7 +13,7 @@ use crate::output::{self, Target, note};
 use crate::work::watch::watched;
 use aspecta::aspect::{Analysis, Options, analyze};
 use aspecta::paving::{Budget, Stop};
-use aspecta::text::{Advice, Summary};
+use aspecta::text::{AnalysisAdvice, AnalysisSummary};
 use aspecta_view::write_report;
 use clap::Args;
 use std::io::Write;
@@ -63,7 +63,8 @@ const FIX: &str = "\
     again, or separated by commas, for several. det A stays that of the whole robot";
 
 /// Where the rows are that the tables leave out.
-const ADVICE: Advice = Advice { on_aspects: ": see --json or --out", on_doubts: " (--json lists all)" };
+const ADVICE: AnalysisAdvice =
+    AnalysisAdvice { on_aspects: ": see --json or --out", on_doubts: " (--json lists all)" };
 
 impl Analyze {
     pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
@@ -91,7 +92,7 @@ impl Analyze {
         if self.shown.json {
             output::json(out, analysis)?;
         } else {
-            write!(out, "{}", Summary { analysis, advice: ADVICE })?;
+            write!(out, "{}", AnalysisSummary { analysis, advice: ADVICE })?;
         }
         let Some(directory) = self.out.directory() else { return Ok(()) };
         // People see the numbers while the figures are drawn.

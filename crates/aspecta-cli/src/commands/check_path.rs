@@ -7,9 +7,8 @@ use crate::args::path::PathArgs;
 use crate::failure::{Answer, Failure};
 use crate::input::Columns;
 use crate::output::{FORMAT_VERSION, Format, exact, json};
-use crate::show::verdict;
 use aspecta::motion::PathCheck;
-use aspecta::robot::Robot;
+use aspecta::text::PathSummary;
 use aspecta_view::{Motion, figure_11, file};
 use clap::Args;
 use serde::Serialize;
@@ -54,17 +53,18 @@ const OUT: &str = "\
 
 impl CheckPath {
     pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
-        let (robot, lines, check) = self.path.check()?;
-        let draw = |directory: &Path| {
-            draw(directory, &robot, &check, lines).map_err(Failure::in_directory(directory))
-        };
+        let check = self.path.check()?;
+        let draw = |directory: &Path| draw(directory, &check).map_err(Failure::in_directory(directory));
         let drawn = self.out.directory().map(draw).transpose()?;
         match self.format.format() {
             Format::Json => {
-                json(out, &Document { format_version: FORMAT_VERSION, robot: &robot.name, check: &check })?;
+                let robot = &check.robot.name;
+                json(out, &Document { format_version: FORMAT_VERSION, robot, check: &check })?;
             }
-            Format::Csv => print_profile(out, &robot, &check)?,
-            Format::Table => verdict::print(out, &robot, &check, &self.path, lines)?,
+            Format::Csv => print_profile(out, &check)?,
+            Format::Table => {
+                write!(out, "{}", PathSummary { check: &check, degrees: self.path.deg })?;
+            }
         }
         if let Some([figure, motion]) = drawn {
             let written = format!("figure: {}\nmotion: {}", figure.display(), motion.display());
@@ -75,17 +75,19 @@ impl CheckPath {
 }
 
 /// Writes figure 11 and the motion into a directory, which is created if need be.
-fn draw(directory: &Path, robot: &Robot, check: &PathCheck, points: usize) -> io::Result<[PathBuf; 2]> {
+fn draw(directory: &Path, check: &PathCheck) -> io::Result<[PathBuf; 2]> {
     fs::create_dir_all(directory)?;
+    let robot = &check.robot;
     let motion = Motion::new(robot).then(check.mode, &check.profile).stopped_by(check.obstacle.as_ref());
     Ok([
-        file::put(directory, "figure11.svg", figure_11(robot, check, points))?,
+        file::put(directory, "figure11.svg", figure_11(robot, check, check.samples))?,
         file::put(directory, "motion.html", motion.page())?,
     ])
 }
 
 /// The path: poses, joint vectors, and figure 11, det A and the B_jj, each divided by its largest modulus.
-fn print_profile(out: &mut dyn Write, robot: &Robot, check: &PathCheck) -> Result<(), Failure> {
+fn print_profile(out: &mut dyn Write, check: &PathCheck) -> Result<(), Failure> {
+    let robot = &check.robot;
     let mut csv = csv::Writer::from_writer(out);
     let names = Columns::pose(robot).and(&Columns::joints(robot)).names;
     let b = (1..=robot.dof()).map(|j| format!("relative_b_{j}{j}"));

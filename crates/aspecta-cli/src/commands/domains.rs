@@ -11,7 +11,6 @@ use crate::args::threads::{self, Threads};
 use crate::failure::{Answer, Failure};
 use crate::input;
 use crate::output::{self, FORMAT_VERSION, Target, note};
-use crate::show::regions;
 use crate::work::mapping::{Part, Source, Wanted};
 use crate::work::watch::watched;
 use aspecta::aspect::{Analysis, Count, DetSign};
@@ -19,6 +18,7 @@ use aspecta::domain::characteristic::GivenUp;
 use aspecta::domain::{DomainError, Domains as Found, Map, MappedAspect, Surfaces};
 use aspecta::paving::Stop;
 use aspecta::robot::Robot;
+use aspecta::text::{DomainsAdvice, DomainsSummary};
 use aspecta_view::words::count;
 use aspecta_view::{Cut, write_domains};
 use clap::{Args, ValueEnum};
@@ -97,6 +97,9 @@ const OUT: &str = "\
     Write pictures into this directory: basic regions, the largest uniqueness domain, basic \
     components and the sheets over joint space; for robots with 3 coordinates also the boundary and \
     the characteristic surface as meshes. On slices the first two only, of 2 or 3 free coordinates";
+
+/// Where the rows are that the tables leave out, and what makes more cells.
+const ADVICE: DomainsAdvice = DomainsAdvice { on_rows: " (--json lists all)", cells: "--cells" };
 
 impl Domains {
     pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
@@ -187,7 +190,7 @@ impl Domains {
             if k > 0 {
                 writeln!(out)?;
             }
-            regions::print(out, map, &sheet.domains)?;
+            write!(out, "{}", DomainsSummary { domains: &sheet.domains, advice: ADVICE })?;
         }
         if sheets.is_empty() {
             let found: usize = map.classes.iter().map(|class| class.aspects.len()).sum();

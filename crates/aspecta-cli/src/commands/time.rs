@@ -5,11 +5,9 @@ use crate::args::path::PathArgs;
 use crate::args::rate::Rate;
 use crate::failure::{Answer, Failure};
 use crate::output::{FORMAT_VERSION, Format, Labels, json, note, number};
-use crate::show::verdict::describe;
 use crate::work::timing;
 use aspecta::motion::time::{Binding, JointLimits, Limited, Row, Trajectory, trajectory};
 use aspecta::motion::{Joined, Obstacle, PathCheck};
-use aspecta::robot::Robot;
 use clap::Args;
 use serde::Serialize;
 use std::io::Write;
@@ -72,19 +70,20 @@ impl Time {
                 "--joined none: a motion needs to know what lies between the lines".into(),
             ));
         }
-        let (robot, lines, check) = self.path.check()?;
-        let limits = timing::limits(&robot, &self.speed, &self.acceleration, self.path.deg)?;
+        let check = self.path.check()?;
+        let robot = &check.robot;
+        let limits = timing::limits(robot, &self.speed, &self.acceleration, self.path.deg)?;
         if !check.is_sound() {
-            return self.refuse(out, &robot, &check);
+            return self.refuse(out, &check);
         }
         let motion = trajectory(&check.pieces(), &limits)?;
         timing::check_length(&motion, self.rate.rate)?;
-        let write = |path: &Path| timing::write("--out", path, &robot, &motion, self.rate.rate);
+        let write = |path: &Path| timing::write("--out", path, robot, &motion, self.rate.rate);
         let written = self.out.as_deref().map(write).transpose()?;
         match self.format.format() {
-            Format::Json => json(out, &self.document(&robot, &check, Some((&motion, &limits))))?,
-            Format::Csv => timing::rows(out, &robot, &motion, self.rate.rate)?,
-            Format::Table => self.summary(out, &robot, &check, &motion, lines)?,
+            Format::Json => json(out, &self.document(&check, Some((&motion, &limits))))?,
+            Format::Csv => timing::rows(out, robot, &motion, self.rate.rate)?,
+            Format::Table => self.summary(out, &check, &motion)?,
         }
         if let Some(written) = written {
             self.format.format().say(out, &written)?;
@@ -92,21 +91,17 @@ impl Time {
         Ok(Answer::Yes)
     }
 
-    fn refuse(&self, out: &mut dyn Write, robot: &Robot, check: &PathCheck) -> Result<Answer, Failure> {
+    fn refuse(&self, out: &mut dyn Write, check: &PathCheck) -> Result<Answer, Failure> {
         if self.format.format() == Format::Json {
-            json(out, &self.document(robot, check, None))?;
+            json(out, &self.document(check, None))?;
         }
-        let why = check
-            .obstacle
-            .as_ref()
-            .map_or(String::new(), |o| format!(": {}", describe(robot, o, check.joined)));
+        let why = check.obstacle.as_ref().map_or(String::new(), |o| format!(": {}", check.in_words(o)));
         note(&format!("the path is not proved to be sound{why}\n`aspecta check-path` says more"));
         Ok(Answer::No)
     }
 
     fn document<'a>(
         &self,
-        robot: &'a Robot,
         check: &'a PathCheck,
         motion: Option<(&'a Trajectory, &'a JointLimits)>,
     ) -> Document<'a> {
@@ -120,7 +115,7 @@ impl Time {
         });
         Document {
             format_version: FORMAT_VERSION,
-            robot: &robot.name,
+            robot: &check.robot.name,
             mode: check.mode.to_string(),
             sound: check.is_sound(),
             obstacle: check.obstacle.as_ref(),
@@ -128,16 +123,9 @@ impl Time {
         }
     }
 
-    fn summary(
-        &self,
-        out: &mut dyn Write,
-        robot: &Robot,
-        check: &PathCheck,
-        motion: &Trajectory,
-        lines: usize,
-    ) -> Result<(), Failure> {
-        let joints = Labels::joints(robot, self.path.deg);
-        writeln!(out, "{}, working mode {}, {}", robot.name, check.mode, self.path.describe(lines))?;
+    fn summary(&self, out: &mut dyn Write, check: &PathCheck, motion: &Trajectory) -> Result<(), Failure> {
+        let joints = Labels::joints(&check.robot, self.path.deg);
+        writeln!(out, "{}", check.heading())?;
         writeln!(out, "sound             yes, certified")?;
         let stops = check.pieces().len();
         let rests = if stops == 1 { "from rest to rest" } else { "from rest to rest on each segment" };

@@ -5,12 +5,11 @@ use crate::args::help::help;
 use crate::args::threads::Threads;
 use crate::failure::{Answer, Failure};
 use crate::input;
-use crate::output::{self, Align, Table, note};
+use crate::output::{self, note};
 use crate::work::watch::watched;
-use aspecta::certificate::{Certificate, CertificateError, Claim};
+use aspecta::certificate::{Certificate, CertificateError};
 use aspecta::robot::Robot;
-use aspecta::verify::{Checked, ENOUGH, Verdict, verify};
-use aspecta_view::words::count;
+use aspecta::verify::verify;
 use clap::Args;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -48,7 +47,7 @@ impl Verify {
         if self.shown.json {
             output::json(out, &verdict)?;
         } else {
-            print(out, &certificate, &verdict)?;
+            write!(out, "{verdict}")?;
         }
         if !verdict.complete {
             note("cancelled: nothing is verified");
@@ -80,81 +79,4 @@ fn is_robot_file(path: &Path) -> bool {
 /// Whether two robots are the same for the arithmetic.
 fn is_same(a: &Robot, b: &Robot) -> bool {
     (a.platform, &a.legs, &a.window) == (b.platform, &b.legs, &b.window)
-}
-
-fn print(out: &mut dyn Write, certificate: &Certificate, verdict: &Verdict) -> Result<(), Failure> {
-    let Verdict { sheets, leaves, claims, boxes, joins, seams, .. } = verdict;
-    let (leaves, sheets) = (count(*leaves, "leaf", "leaves"), count(*sheets, "sheet", "sheets"));
-    writeln!(out, "certificate for {}: {leaves} in {sheets}", certificate.robot.name)?;
-    let held = certificate.window.held();
-    let names = certificate.robot.platform.coordinates();
-    for (k, value) in held {
-        writeln!(out, "  slice {} = {value}", names[k].name)?;
-    }
-    let (inside, outside, undecided) = (claims.inside, claims.outside, claims.undecided);
-    writeln!(out, "  claims: {inside} inside, {outside} outside, {undecided} undecided,")?;
-    writeln!(
-        out,
-        "    {} summitless, {} covered, {}, {}",
-        claims.summitless,
-        claims.covered,
-        count(*joins, "join", "joins"),
-        count(*seams, "seam", "seams")
-    )?;
-    writeln!(out, "  boxes examined: {boxes}")?;
-    if !verdict.classes.is_empty() {
-        write!(out, "\n{}", table(&verdict.classes))?;
-    }
-    writeln!(out)?;
-    for fault in &verdict.faults {
-        writeln!(out, "fault: {}", fault.in_words(&certificate.modes))?;
-    }
-    if verdict.faults.len() >= ENOUGH {
-        writeln!(out, "there may be more: boxes are looked at until {ENOUGH} have faults")?;
-    }
-    match verdict.is_verified() {
-        true => writeln!(out, "verified: {}{}", total(&certificate.claims), restriction(certificate))?,
-        false if verdict.is_refuted() => writeln!(out, "not verified: a claim is proved wrong")?,
-        false if verdict.complete => {
-            writeln!(out, "not verified: not all claims are proved with the effort spent")?;
-        }
-        false => {}
-    }
-    Ok(())
-}
-
-fn table(classes: &[Checked]) -> Table {
-    let columns = ["mode", "det A"].map(|name| (name.to_owned(), Align::Left));
-    let bounds = ["claimed", "proved"].map(|name| (name.to_owned(), Align::Right));
-    let mut table = Table::new(columns.into_iter().chain(bounds));
-    for class in classes {
-        let sign = if class.det_a > 0 { "  +" } else { "  -" };
-        table.row([class.mode.to_string(), sign.into(), range(class.claimed), range(class.proved)]);
-    }
-    table
-}
-
-fn range(claim: Claim) -> String {
-    match claim.high {
-        Some(high) if high == claim.low => format!("{high}"),
-        Some(high) => format!("{}..{high}", claim.low),
-        None => format!("≥ {}", claim.low),
-    }
-}
-
-/// Returns the restriction under which the total is meant.
-fn restriction(certificate: &Certificate) -> &'static str {
-    let all = certificate.robot.working_modes().len();
-    if certificate.modes.len() < all { ", in the working modes listed" } else { "" }
-}
-
-/// Returns the total over all classes, in words.
-fn total(claims: &[Claim]) -> String {
-    let low: usize = claims.iter().map(|c| c.low).sum();
-    let aspects = |n: usize| count(n, "generalized aspect", "generalized aspects");
-    match claims.iter().map(|c| c.high).sum::<Option<usize>>() {
-        Some(high) if high == low => format!("exactly {}", aspects(low)),
-        Some(high) => format!("at least {low} and at most {}", aspects(high)),
-        None => format!("at least {}", aspects(low)),
-    }
 }

@@ -6,7 +6,4 @@ pub mod joined;
 pub mod motion;
 pub mod numbered;
 pub mod places;
-pub mod regions;
-mod route;
 pub mod solutions;
-pub mod verdict;

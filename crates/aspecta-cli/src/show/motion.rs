@@ -1,15 +1,15 @@
 //! Planned motions, or why there is none.
 
-use super::route;
 use crate::args::planning::Planning;
 use crate::failure::{Answer, Failure};
-use crate::output::{FORMAT_VERSION, Format, json, note};
+use crate::input::Columns;
+use crate::output::{FORMAT_VERSION, Format, exact, json, note};
 use crate::work::planning::Planned;
 use aspecta::motion::PathCheck;
-use aspecta::motion::crossing::Crossing;
 use aspecta::motion::modes::{NoRoute, Route};
 use aspecta::motion::plan::Refusal;
 use aspecta::robot::Robot;
+use aspecta::text::RouteSummary;
 use aspecta_view::file;
 use serde::Serialize;
 use std::io::Write;
@@ -66,9 +66,8 @@ pub fn print(
             Ok(Answer::No)
         }
         Ok(route) => {
-            let checks = route::checks(robot, route)?;
-            let crossed = |c: &Crossing| c.is_proved(robot, route.stretches[0].margins);
-            let is_proved = checks.iter().all(PathCheck::is_sound) && route.crossings.iter().all(crossed);
+            let checks = route.checks()?;
+            let is_proved = route.is_proved(&checks);
             let mut written = moving.write(robot, route, shown.deg)?.into_iter().collect::<Vec<_>>();
             if let (Some(directory), Some(page)) = (moving.out.directory(), &planned.page) {
                 let path =
@@ -80,8 +79,10 @@ pub fn print(
                     (document.route, document.checks) = (Some(route), checks);
                     json(out, &document)?;
                 }
-                Format::Csv => route::print_csv(out, robot, route)?,
-                Format::Table => route::print_table(out, robot, route, &checks, is_proved, shown.deg)?,
+                Format::Csv => print_csv(out, robot, route)?,
+                Format::Table => {
+                    write!(out, "{}", RouteSummary { route, checks: &checks, degrees: shown.deg })?;
+                }
             }
             for line in written {
                 format.say(out, &line)?;
@@ -101,4 +102,18 @@ fn advice(refusal: &NoRoute) -> &'static str {
         }
         _ => "",
     }
+}
+
+/// The waypoints as CSV: the mode, then the pose; where the mode changes, the crossing comes twice.
+fn print_csv(out: &mut dyn Write, robot: &Robot, route: &Route) -> Result<(), Failure> {
+    let mut csv = csv::Writer::from_writer(out);
+    let names = Columns::pose(robot).names;
+    csv.write_record(["mode".to_owned()].into_iter().chain(names))?;
+    for (mode, poses) in route.driven() {
+        for pose in poses {
+            csv.write_record([mode.to_string()].into_iter().chain(pose.iter().map(|x| exact(*x))))?;
+        }
+    }
+    csv.flush()?;
+    Ok(())
 }

@@ -4,6 +4,7 @@
 mod check;
 pub mod curve;
 pub mod spline;
+mod text;
 pub mod time;
 
 use aspecta_robot::Robot;
@@ -13,6 +14,7 @@ pub use check::{
     Asked, Clearance, Joined, Least, Obstacle, PathCheck, PathError, PathOptions, ProfilePoint, check_joints,
     check_path, check_poses,
 };
+pub use text::PathSummary;
 
 /// Returns the units in which pose coordinates are of order one: the characteristic length for translations,
 /// else 1.

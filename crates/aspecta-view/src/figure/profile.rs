@@ -4,11 +4,11 @@
 use super::axes::{Axis, Chart};
 use super::maps::{styled_line, swatch};
 use super::palette::{self, INK, OBSTACLE};
-use super::robot::{signs, subscript};
+use super::robot::signs;
 use super::svg::{Anchor, Svg};
-use aspecta::kinematics::constraints::Kind;
-use aspecta::motion::{Asked, Joined, Obstacle, PathCheck, ProfilePoint};
+use aspecta::motion::{Joined, Obstacle, PathCheck, ProfilePoint};
 use aspecta::robot::Robot;
+use aspecta::text::subscript;
 
 /// Pixels the label of a point takes, so that neighbours do not run into each other.
 const LABEL: f64 = 52.0;
@@ -103,20 +103,6 @@ impl Plot<'_> {
     }
 }
 
-/// Returns a description of what fails at an obstacle.
-pub fn failure(robot: &Robot, obstacle: &Obstacle) -> String {
-    let what = match obstacle.constraint.kind() {
-        Kind::Parallel if obstacle.asked == Asked::Margin => "|det Â| falls below its margin".to_owned(),
-        Kind::Serial(j) if obstacle.asked == Asked::Margin => {
-            format!("|B{0}{0}|/max falls below its margin", subscript(j + 1))
-        }
-        Kind::Parallel => "det A vanishes or changes sign (parallel singularity)".to_owned(),
-        Kind::Serial(j) => format!("leg {} is stretched or folded (serial singularity)", j + 1),
-        Kind::Limit => format!("beyond the {}", obstacle.constraint.named(robot)),
-    };
-    if obstacle.proved { what } else { format!("not excluded: {what}") }
-}
-
 /// Returns the position of a sample along the path.
 pub(crate) fn along(p: &ProfilePoint) -> f64 {
     p.segment as f64 + p.t
@@ -200,7 +186,7 @@ fn name_obstacle(svg: &mut Svg, robot: &Robot, chart: &Chart, obstacle: &Obstacl
     let bottom = chart.top + chart.height - 9.0;
     let right = from + to < 2.0 * chart.left + chart.width;
     let (x, anchor) = if right { (to + 5.0, Anchor::Start) } else { (from - 5.0, Anchor::End) };
-    svg.text([x, bottom], anchor, 11.0, &format!("fill:{OBSTACLE}"), &failure(robot, obstacle));
+    svg.text([x, bottom], anchor, 11.0, &format!("fill:{OBSTACLE}"), &obstacle.in_words(robot));
 }
 
 fn legend(svg: &mut Svg, curves: &[Curve], obstacle: bool, at: [f64; 2]) {

@@ -9,6 +9,7 @@ use super::skeleton::{LegShape, Point, Skeleton, minus, plus, times};
 use super::svg::{Anchor, Svg};
 use aspecta::aspect::{ModeReport, Reachable, Sample};
 use aspecta::robot::{Platform, Robot};
+use aspecta::text::subscript;
 
 /// The robot at `sample`, with the names of its points, both frames and a legend.
 pub fn robot(robot: &Robot, sample: &Sample) -> String {
@@ -334,11 +335,6 @@ pub(super) fn label(shapes: &mut Shapes, view: &View, lines: Vec<[Point; 2]>, na
         let [x, y] = labels.beside(view.at(p));
         shapes.text([x, y + 4.5], 13.0, halo, &name);
     }
-}
-
-/// Decimal digits as subscripts.
-pub fn subscript(n: usize) -> String {
-    n.to_string().chars().filter_map(|c| char::from_u32(0x2080 + c.to_digit(10)?)).collect()
 }
 
 fn dot(a: Point, b: Point) -> f64 {

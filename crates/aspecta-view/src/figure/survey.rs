@@ -9,6 +9,7 @@ use super::raster::{Label, Raster, pixels};
 use aspecta::aspect::{Analysis, AspectClass, Cell, DetSign, Held};
 use aspecta::kinematics::WorkingMode;
 use aspecta::robot::{Robot, Window};
+use aspecta::text::subscript;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
@@ -147,7 +148,7 @@ fn joint_axes(robot: &Robot, classes: &[AspectClass]) -> [Axis; 2] {
 pub fn joint_axis(robot: &Robot, k: usize, range: (f64, f64)) -> Axis {
     let angle = robot.legs[k].actuator.is_angle();
     let unit = if angle { "rad" } else { &robot.length_unit };
-    Axis { label: format!("q{} [{unit}]", super::robot::subscript(k + 1)), range, angle }
+    Axis { label: format!("q{} [{unit}]", subscript(k + 1)), range, angle }
 }
 
 /// Cells as pixels over a plane of poses. Where cells are smaller than a pixel, undecided ones come first and

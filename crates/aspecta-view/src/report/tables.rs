@@ -1,13 +1,14 @@
 //! The tables of the page and the words for its numbers.
 
 use crate::figure::palette;
-use crate::figure::robot::{signs, subscript};
+use crate::figure::robot::signs;
 use crate::figure::survey::coordinate_name;
 use crate::words::{measure_unit, number};
 use aspecta::aspect::{Analysis, AspectClass, DetSign, Reachable};
 use aspecta::kinematics::WorkingMode;
 use aspecta::legs::{Dimension, Size};
 use aspecta::robot::{Leg, Platform, Robot};
+use aspecta::text::subscript;
 use maud::{Markup, html};
 
 /// The robot's data: one row a leg.

@@ -11,7 +11,7 @@ use super::uniqueness::maximal_sets;
 use crate::aspect::Analysis;
 use crate::paving::Control;
 use aspecta_robot::num::Random;
-use aspecta_robot::work;
+use aspecta_robot::{text, work};
 use std::collections::BTreeSet;
 
 /// Most nodes of a grid.
@@ -92,6 +92,8 @@ pub fn domains(
         agreement: agreement(&sheet, &partition, regions, options.samples),
         failed: partition.failed,
         labels: partition.labels,
+        window: analysis.window.clone(),
+        pose: text::Labels::pose(&analysis.robot, false),
     })
 }
 

@@ -4,9 +4,8 @@ use super::labels::Labels;
 use super::mesh::Mesh;
 use super::sheet::Sheet;
 use crate::aspect::{Analysis, DetSign, Measure};
-use aspecta_robot::WorkingMode;
 use aspecta_robot::num::without_turns;
-use aspecta_robot::{Unbounded, Window};
+use aspecta_robot::{Unbounded, Window, WorkingMode, text};
 use serde::{Deserialize, Serialize};
 
 /// How finely an aspect is partitioned.
@@ -101,6 +100,12 @@ pub struct Domains {
     /// The grid behind it.
     #[serde(skip)]
     pub labels: Labels,
+    /// The poses that were cut up.
+    #[serde(skip)]
+    pub(crate) window: Window,
+    /// How their coordinates are called.
+    #[serde(skip)]
+    pub(crate) pose: text::Labels,
 }
 
 impl Domains {

@@ -6,6 +6,7 @@ pub mod crossing;
 pub mod explore;
 pub mod modes;
 pub mod plan;
+mod route;
 mod search;
 pub mod traverse;
 

@@ -1,17 +1,15 @@
 //! The graph of aspects joined through serial singularities, and plans across it.
 
-use super::between;
 use super::crossing::{Crossing, crossings};
 use super::plan::refusal::{aspect_at, sign_at, word};
-use super::plan::{End, Plan, PlanOptions, Planner, Refusal};
-use super::time::{Piece, Waypoint};
+use super::plan::{End, PlanOptions, Planner, Refusal};
 use crate::aspect::{Analysis, Count, DetSign};
-use aspecta_kinematics::Kinematics;
 use aspecta_kinematics::constraints::Margins;
-use aspecta_kinematics::path::go_on_from;
 use aspecta_robot::{Robot, Window, WorkingMode};
 use serde::Serialize;
 use std::collections::VecDeque;
+
+pub use super::route::Route;
 
 /// The aspects of a robot and the crossings between them.
 #[derive(Clone, Debug, Serialize)]
@@ -43,16 +41,6 @@ pub struct GraphAspect {
     pub measure: f64,
     /// Whether it is proved to be one: [`Analysis::is_one`].
     pub is_one: bool,
-}
-
-/// A motion through several working modes without a parallel singularity.
-#[derive(Clone, Debug, Serialize)]
-#[non_exhaustive]
-pub struct Route {
-    /// The motions within one mode, each proved. Each but the last ends at [`Crossing::inside`] of the crossing that follows.
-    pub stretches: Vec<Plan>,
-    /// The crossings between them: from `inside` to `pose`, and back to `inside` in the other posture.
-    pub crossings: Vec<Crossing>,
 }
 
 impl ModeGraph {
@@ -311,60 +299,7 @@ pub fn check_ends(
     if signs[0] == signs[1] { Ok(signs[0]) } else { Err(NoRoute::OppositeSigns(signs[0])) }
 }
 
-/// Samples of a segment, and of each half of a crossing.
-const SAMPLES: usize = 100;
-
-impl From<Plan> for Route {
-    /// A motion within one mode.
-    fn from(plan: Plan) -> Self {
-        Self { stretches: vec![plan], crossings: Vec::new() }
-    }
-}
-
-impl Route {
-    /// The motion ready for [`trajectory`](super::time::trajectory): a piece a segment, and one for each crossing with the way there and back, on which
-    /// the joints go on smoothly while the platform turns round. Numerical: the crossing leg's joint is computed in doubles.
-    pub fn pieces(&self, robot: &Robot) -> Vec<Piece> {
-        let mut pieces = Vec::new();
-        for (k, stretch) in self.stretches.iter().enumerate() {
-            for ends in stretch.waypoints.windows(2) {
-                let segment = (0..=SAMPLES)
-                    .map(|i| (between(&ends[0], &ends[1], i as f64 / SAMPLES as f64), stretch.mode));
-                pieces.push(segment.collect());
-            }
-            if let Some(crossing) = self.crossings.get(k) {
-                pieces.push(crossing.samples(stretch.mode));
-            }
-        }
-        let mut last: Option<Vec<f64>> = None;
-        let mut piece = |samples: Vec<(Vec<f64>, WorkingMode)>| {
-            let mut waypoints = Vec::new();
-            for (pose, mode) in samples {
-                let Some(mut q) = robot.inverse_in(&pose, mode).ok().flatten() else { continue };
-                if let Some(last) = &last {
-                    go_on_from(robot, last, &mut q);
-                }
-                last = Some(q.clone());
-                waypoints.push(Waypoint { pose, q, mode });
-            }
-            Piece { samples: waypoints }
-        };
-        pieces.into_iter().map(&mut piece).filter(|piece| piece.samples.len() > 1).collect()
-    }
-}
-
 impl Crossing {
-    /// Returns the samples to the singularity in `mode` and back in the other. The leg's joint goes like the root of the distance left, so its samples
-    /// are even in that root.
-    fn samples(&self, mode: WorkingMode) -> Vec<(Vec<f64>, WorkingMode)> {
-        let other = mode.with_other_posture(self.leg - 1);
-        let sample = |i: usize| {
-            let u = 1.0 - i as f64 / SAMPLES as f64;
-            (between(&self.inside, &self.pose, 1.0 - u * u), if u >= 0.0 { mode } else { other })
-        };
-        (0..=2 * SAMPLES).map(sample).collect()
-    }
-
     /// Returns the crossing with its angles turned by full turns so that `inside` is as given (a full turn
     /// from what it was).
     fn turned_to(&self, inside: &[f64]) -> Self {

@@ -18,7 +18,7 @@ pub const EARLIER_NEED: &str = "they are made of all working modes, of up to 8, 
 
 /// What is said after `… and 3 more`: where a program shows the rest.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Advice {
+pub struct AnalysisAdvice {
     /// Of aspects.
     pub on_aspects: &'static str,
     /// Of doubts.
@@ -27,14 +27,14 @@ pub struct Advice {
 
 /// An analysis as a summary that a person reads, with a program's advice.
 #[derive(Clone, Copy, Debug)]
-pub struct Summary<'a> {
+pub struct AnalysisSummary<'a> {
     /// The analysis.
     pub analysis: &'a Analysis,
     /// The advice.
-    pub advice: Advice,
+    pub advice: AnalysisAdvice,
 }
 
-/// Theorem 1, Tables 1 and 2, the number of aspects, where its bounds are apart, the aspects, Definitions 5 and 6, and
+/// Prints Theorem 1, Tables 1 and 2, the number of aspects, where its bounds are apart, the aspects, Definitions 5 and 6, and
 /// the run, in 100 columns.
 ///
 /// # Examples
@@ -52,17 +52,17 @@ pub struct Summary<'a> {
 /// ```
 impl fmt::Display for Analysis {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        Summary { analysis: self, advice: Advice::default() }.fmt(f)
+        AnalysisSummary { analysis: self, advice: AnalysisAdvice::default() }.fmt(f)
     }
 }
 
-impl fmt::Display for Summary<'_> {
+impl fmt::Display for AnalysisSummary<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write(f, self.analysis, &self.advice)
     }
 }
 
-fn write(out: &mut dyn Write, analysis: &Analysis, advice: &Advice) -> fmt::Result {
+fn write(out: &mut dyn Write, analysis: &Analysis, advice: &AnalysisAdvice) -> fmt::Result {
     let robot = &analysis.robot;
     let title = if robot.title.is_empty() { String::new() } else { format!(": {}", robot.title) };
     writeln!(
@@ -212,7 +212,7 @@ fn table_2(out: &mut dyn Write, analysis: &Analysis) -> fmt::Result {
     writeln!(out, "{}", paragraph(&format!("number of generalized aspects{of_slice}, {total}")))
 }
 
-fn aspects(out: &mut dyn Write, analysis: &Analysis, advice: &Advice) -> fmt::Result {
+fn aspects(out: &mut dyn Write, analysis: &Analysis, advice: &AnalysisAdvice) -> fmt::Result {
     let all: Vec<(&AspectClass, &Aspect)> =
         analysis.classes.iter().flat_map(|c| c.aspects.iter().map(move |a| (c, a))).collect();
     if all.is_empty() {

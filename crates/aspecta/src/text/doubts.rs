@@ -1,7 +1,7 @@
 //! Text on where the bounds on the number of aspects are apart, and why, in 100 columns.
 
 use super::doubt::{largest_first, place, reasons};
-use super::{Advice, Align, Table, brief, paragraph};
+use super::{Align, AnalysisAdvice, Table, brief, paragraph};
 use crate::aspect::{Analysis, Doubt, DoubtKind};
 use aspecta_robot::num::count;
 use std::fmt;
@@ -12,7 +12,7 @@ const LISTED: usize = 8;
 const NAMES: usize = 24;
 
 /// Writes a table for each kind of doubt there is, and what makes doubts last.
-pub(super) fn write(out: &mut dyn fmt::Write, analysis: &Analysis, advice: &Advice) -> fmt::Result {
+pub(super) fn write(out: &mut dyn fmt::Write, analysis: &Analysis, advice: &AnalysisAdvice) -> fmt::Result {
     let hidden = "No upper bound: a whole aspect could hide in undecided boxes";
     let unjoined = "Bounds apart: undecided boxes may join pieces into one aspect, or part them";
     for (kind, title) in [(DoubtKind::Hidden, hidden), (DoubtKind::Unjoined, unjoined)] {

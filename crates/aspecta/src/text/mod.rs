@@ -1,15 +1,17 @@
 //! Results in words and tables, as a terminal shows them: what [`Display`](std::fmt::Display) writes.
 
 mod analysis;
+mod domains;
 pub mod doubt;
 mod doubts;
-mod labels;
-mod numbers;
+mod route;
 mod table;
 
-pub use analysis::{Advice, EARLIER_NEED, Summary};
-pub use labels::{Labels, det_a_unit};
-pub use numbers::{between, brief, number, unsigned};
+pub use analysis::{AnalysisAdvice, AnalysisSummary, EARLIER_NEED};
+pub use aspecta_kinematics::path::PathSummary;
+pub use aspecta_robot::text::{Labels, between, brief, det_a_unit, number, subscript, unsigned};
+pub use domains::{DomainsAdvice, DomainsSummary};
+pub use route::RouteSummary;
 pub use table::{Align, Table};
 
 /// Columns that text is broken for.

@@ -62,11 +62,13 @@ pub fn check_joints(
     let to = arrived.then(|| walk.follower.pose().to_vec());
     let found = walk.verdicts.map(|v| v.failed.or(v.doubt));
     Ok(PathCheck {
+        samples: joints.len(),
+        of_joints: true,
         clearance: clearance(&walk.stretches, robot.dof()),
         ends: [joints.first().cloned(), joints.last().cloned()],
         end_poses: [Some(from), to],
         profile: profile::normalised(walk.points),
-        ..PathCheck::new(mode, options, found)
+        ..PathCheck::new(robot, mode, options, found)
     })
 }
 

@@ -39,6 +39,15 @@ pub struct PathOptions {
 #[derive(Clone, Debug, Serialize)]
 #[non_exhaustive]
 pub struct PathCheck {
+    /// The robot.
+    #[serde(skip)]
+    pub robot: Robot,
+    /// How many samples it was given in.
+    #[serde(skip)]
+    pub samples: usize,
+    /// Whether these are joint vectors; else poses.
+    #[serde(skip)]
+    pub of_joints: bool,
     /// How its samples were joined. With [`Joined::None`] all that is said is of the samples alone.
     pub joined: Joined,
     /// The working mode: of a path of joint vectors, the one it starts in.
@@ -67,8 +76,8 @@ pub struct PathCheck {
 }
 
 impl PathCheck {
-    /// Returns the check with the first obstacles to each [`Asked`], in its order; the rest is empty.
-    fn new(mode: WorkingMode, options: &PathOptions, found: [Option<Obstacle>; 3]) -> Self {
+    /// Returns the check with the first obstacles to each [`Asked`], in its order, of a path of poses; the rest is empty.
+    fn new(robot: &Robot, mode: WorkingMode, options: &PathOptions, found: [Option<Obstacle>; 3]) -> Self {
         let verdict = |o: &Option<Obstacle>| match o {
             None => Some(true),
             Some(o) if o.is_of_its_own(&options.margins) => o.proved.then_some(false),
@@ -80,6 +89,9 @@ impl PathCheck {
         further.sort_by(|a, b| a.segment.cmp(&b.segment).then(a.t.0.total_cmp(&b.t.0)));
         let obstacle = if further.is_empty() { None } else { Some(further.remove(0)) };
         Self {
+            robot: robot.clone(),
+            samples: 0,
+            of_joints: false,
             joined: options.joined,
             mode,
             singularity_free,
@@ -241,8 +253,8 @@ pub fn check_poses(
     let ends = [joints(&end_poses[0]), joints(&end_poses[1])];
     let clearance = clearance(&stretches, robot.dof());
     let profile = profile::normalised(profile);
-    let check = PathCheck::new(mode, options, [singular, near, limit]);
-    Ok(PathCheck { clearance, ends, end_poses, profile, ..check })
+    let check = PathCheck::new(robot, mode, options, [singular, near, limit]);
+    Ok(PathCheck { samples: poses.len(), clearance, ends, end_poses, profile, ..check })
 }
 
 fn check_input(

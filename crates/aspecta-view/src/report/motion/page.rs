@@ -2,9 +2,10 @@
 
 use super::tracks::Tracks;
 use super::{Frame, Motion};
-use crate::figure::profile::{curves, failure};
-use crate::figure::robot::{signs, subscript};
+use crate::figure::profile::curves;
+use crate::figure::robot::signs;
 use crate::figure::survey::coordinate_name;
+use aspecta::text::subscript;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 const STYLE: &str = include_str!("motion.css");
@@ -77,7 +78,7 @@ fn summary(motion: &Motion<'_>, every: usize) -> Markup {
         ", working " @if modes.len() == 1 { "mode " } @else { "modes " } (modes.join(", then ")) ". "
         @if every > 1 { "One of " (every) " samples is shown. " }
         @if let Some(obstacle) = motion.obstacle {
-            strong { "In segment " (obstacle.segment) ": " (failure(motion.robot, obstacle)) "." }
+            strong { "In segment " (obstacle.segment) ": " (obstacle.in_words(motion.robot)) "." }
         }
     }
 }

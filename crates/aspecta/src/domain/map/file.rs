@@ -6,8 +6,7 @@ use crate::domain::grid::Grid;
 use crate::domain::labels::{Labels, OUTSIDE};
 use crate::domain::mesh::Surfaces;
 use crate::domain::result::Domains;
-use aspecta_robot::WorkingMode;
-use aspecta_robot::{Robot, SliceError, Unsound, holds, wanted};
+use aspecta_robot::{Robot, SliceError, Unsound, WorkingMode, holds, text, wanted};
 use flate2::Compression;
 use flate2::bufread::GzDecoder;
 use flate2::write::GzEncoder;
@@ -165,7 +164,8 @@ impl Map {
         file.classes.iter().try_for_each(|class| class.check(&modes))?;
         let sheet = |sheet: SheetIn| {
             let labels = Labels { region: region(&sheet.grid, &sheet.runs)?, grid: sheet.grid };
-            let domains = Domains { unit: unit.clone(), labels, ..sheet.domains };
+            let (unit, window, pose) = (unit.clone(), window.clone(), text::Labels::pose(&file.robot, false));
+            let domains = Domains { unit, labels, window, pose, ..sheet.domains };
             let sheet = MappedAspect { domains, surfaces: sheet.surfaces };
             sheet.check(&file.classes, file.robot.dof())?;
             Ok(sheet)

@@ -91,6 +91,7 @@ impl Territory<'_> {
             return Err(Refusal::Unproved { pose: path[k].to_vec() });
         }
         Ok(Plan {
+            robot: self.proof.robot.clone(),
             mode,
             det_a,
             aspect: None,

@@ -48,6 +48,9 @@ impl Default for PlanOptions {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Plan {
+    /// The robot.
+    #[serde(skip)]
+    pub robot: Robot,
     /// The working mode.
     pub mode: WorkingMode,
     /// The sign of det A.
@@ -175,6 +178,7 @@ impl<'a> Planner<'a> {
             return Err(Refusal::Unproved { pose: path[k][..analysis.robot.dof()].to_vec() });
         }
         Ok(Plan {
+            robot: robot.clone(),
             mode,
             det_a,
             aspect,

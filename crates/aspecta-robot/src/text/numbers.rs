@@ -1,6 +1,6 @@
 //! Numbers for people.
 
-use aspecta_robot::num::count;
+use crate::num::count;
 
 /// A number for people: six decimals, or six digits and a power of ten where these would not show it.
 pub fn number(x: f64) -> String {
@@ -28,6 +28,11 @@ pub fn brief(x: f64) -> String {
 /// The number with a zero that has no sign: nobody asks from which side it is one.
 pub fn unsigned(x: f64) -> f64 {
     x + 0.0
+}
+
+/// Returns the number in subscript digits: `₁₂`.
+pub fn subscript(n: usize) -> String {
+    n.to_string().chars().filter_map(|c| char::from_u32(0x2080 + c.to_digit(10)?)).collect()
 }
 
 /// How many there are, by the bounds that are proved: `1 box`, `2 to 3 boxes`, `at least 2 boxes`.

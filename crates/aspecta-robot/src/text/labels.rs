@@ -1,9 +1,10 @@
 //! Vectors as people read them.
 
 use super::numbers;
-use aspecta_robot::Robot;
+use crate::Robot;
 
 /// Prints vectors as people read them: names, units, degrees if asked for.
+#[derive(Clone, Debug, Default)]
 pub struct Labels {
     names: Vec<String>,
     angles: Vec<bool>,
