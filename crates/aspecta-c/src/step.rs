@@ -70,7 +70,7 @@ impl aspecta_report {
             }
             Refusal::Serial { leg, proved, singular_at, distance } => {
                 (self.proved, self.singular_at, self.distance) = (proved, singular_at, distance);
-                self.leg = leg as u32;
+                self.leg = leg.number() as u32;
                 ASPECTA_SERIAL
             }
             Refusal::TooLong { proved, distance } => {

@@ -74,10 +74,13 @@ impl Coordinates for Chart {
         legs: &[LegClosure<T, D>; N],
     ) -> ArrayVec<T, 4> {
         match self {
-            Self::Fold(fold) => fold::cover(fold, &legs[fold.leg]),
-            Self::Chain(Chain { leg, bend: Some(bend) }) => {
-                std::iter::once(chain::cover(bend, &robot.legs[*leg].actuator, &legs[*leg].span)).collect()
-            }
+            Self::Fold(fold) => fold::cover(fold, &legs[fold.leg.index()]),
+            Self::Chain(Chain { leg, bend: Some(bend) }) => std::iter::once(chain::cover(
+                bend,
+                &robot.legs[leg.index()].actuator,
+                &legs[leg.index()].span,
+            ))
+            .collect(),
             Self::Pose | Self::Chain(_) => ArrayVec::new(),
         }
     }

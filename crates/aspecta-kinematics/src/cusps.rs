@@ -15,7 +15,7 @@ mod search;
 mod unfold;
 
 use crate::chart::{Chart, folds};
-use crate::{Kinematics, KinematicsError, WorkingMode};
+use crate::{Kinematics, KinematicsError, LegIndex, WorkingMode};
 use aspecta_robot::num::Interval;
 use aspecta_robot::work::Control;
 use aspecta_robot::{Platform, Robot, SliceError, Window};
@@ -33,8 +33,8 @@ pub const USUAL_BOXES: u64 = 1_000_000;
 /// Options of the search for cusps.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
-    /// The joints that are held: index from 0, and value (length unit or rad). n − 2 of them.
-    pub fix: Vec<(usize, f64)>,
+    /// The joints that are held, by their legs, and their values (length unit or rad). n − 2 of them.
+    pub fix: Vec<(LegIndex, f64)>,
     /// One working mode, or all.
     pub mode: Option<WorkingMode>,
     /// Greatest number of boxes, over all modes [`USUAL_BOXES`].
@@ -66,14 +66,14 @@ pub enum CuspError {
         found: usize,
     },
     /// No such joint.
-    #[error("robot `{robot}` has {dof} joints: there is no number {index} to hold, counted from 0")]
+    #[error("robot `{robot}` has {dof} joints: there is no joint {leg} to hold")]
     NoSuchJoint {
         /// Robot name.
         robot: String,
         /// Its degrees of freedom.
         dof: usize,
-        /// Index given.
-        index: usize,
+        /// Joint given, by its leg.
+        leg: LegIndex,
     },
     /// No joint has a range.
     #[error(
@@ -135,9 +135,9 @@ pub struct HeldJoint {
 }
 
 impl HeldJoint {
-    fn new(robot: &Robot, &(index, value): &(usize, f64)) -> Self {
-        let unit = if robot.legs[index].actuator.is_angle() { "rad" } else { &robot.length_unit };
-        Self { joint: format!("q{}", index + 1), value, unit: unit.into() }
+    fn new(robot: &Robot, &(leg, value): &(LegIndex, f64)) -> Self {
+        let unit = if robot.legs[leg.index()].actuator.is_angle() { "rad" } else { &robot.length_unit };
+        Self { joint: format!("q{leg}"), value, unit: unit.into() }
     }
 }
 
@@ -189,15 +189,15 @@ pub struct Undecided {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case", tag = "reason")]
 pub enum Doubt {
-    /// A serial singularity: the two postures of a leg (from 1) meet, and the equations are not smooth there.
+    /// A serial singularity: the two postures of a leg meet, and the equations are not smooth there.
     Serial {
         /// The leg.
-        leg: usize,
+        leg: LegIndex,
     },
-    /// C of a leg (from 1) is on the axis of its crank: its joint is free.
+    /// C of a leg is on the axis of its crank: its joint is free.
     FreeJoint {
         /// The leg.
-        leg: usize,
+        leg: LegIndex,
     },
     /// A loses two ranks, or nearly: four solutions may meet.
     Rank,
@@ -221,7 +221,7 @@ pub enum Doubt {
 /// # Examples
 /// ```
 /// use aspecta_kinematics::cusps::{Options, cusps};
-/// use aspecta_robot::catalogue;
+/// use aspecta_robot::{LegIndex, catalogue};
 /// use aspecta_robot::work::Control;
 ///
 /// // A platform that does not turn has none: its direct problem is quadratic.
@@ -231,7 +231,7 @@ pub enum Doubt {
 ///
 /// // Of a 3-RPR one strut is held; a few boxes do not decide all of it.
 /// let robot = catalogue::find("3-rpr").unwrap();
-/// let options = Options { fix: vec![(0, 14.98)], boxes: Some(1000), ..Options::default() };
+/// let options = Options { fix: vec![(LegIndex::new(0), 14.98)], boxes: Some(1000), ..Options::default() };
 /// assert!(!cusps(&robot, &options, &Control::unwatched())?.complete);
 /// # Ok::<(), aspecta_kinematics::cusps::CuspError>(())
 /// ```
@@ -271,10 +271,12 @@ fn check(robot: &Robot, options: &Options) -> Result<Vec<WorkingMode>, CuspError
     }
     // The values are those of a joint vector, so they are judged as one.
     let mut q = vec![1.0; dof];
-    for &(index, value) in &options.fix {
-        *q.get_mut(index).ok_or_else(|| CuspError::NoSuchJoint { robot: name(), dof, index })? = value;
-        if robot.legs[index].actuator.forbids(value) {
-            return Err(KinematicsError::StrutLength { leg: index + 1, value }.into());
+    for &(leg, value) in &options.fix {
+        let joint =
+            q.get_mut(leg.index()).ok_or_else(|| CuspError::NoSuchJoint { robot: name(), dof, leg })?;
+        *joint = value;
+        if robot.legs[leg.index()].actuator.forbids(value) {
+            return Err(KinematicsError::StrutLength { leg, value }.into());
         }
     }
     crate::check_joints(robot, &q)?;
@@ -294,10 +296,10 @@ fn find<const D: usize, const N: usize>(
     all: &mut Cusps,
     control: &Control<'_>,
 ) {
-    let held = options.fix.first().copied();
+    let held = options.fix.first().map(|&(leg, value)| (leg.index(), value));
     let mut folds = folds(robot, window);
     // The held leg's row is made from q itself.
-    folds.retain(|fold| held.is_none_or(|(k, _)| k != fold.leg));
+    folds.retain(|fold| held.is_none_or(|(k, _)| k != fold.leg.index()));
     let charts = || std::iter::once(Chart::Pose).chain(folds.iter().cloned().map(Chart::Fold));
     let mut left = options.boxes.unwrap_or(USUAL_BOXES);
     let modes = all.modes.clone();

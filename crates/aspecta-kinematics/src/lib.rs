@@ -32,7 +32,7 @@ pub use singularity::{SINGULAR, Singularity, State, make_homogeneous};
 #[doc(hidden)]
 pub use aspecta_robot::Platform;
 use aspecta_robot::num::written;
-pub use aspecta_robot::{LegSet, NotAMode, WorkingMode};
+pub use aspecta_robot::{LegIndex, LegSet, NotAMode, WorkingMode};
 use serde::Serialize;
 
 /// Runs a function generic over (D, N) — the dimension of space and the degrees of freedom — for the
@@ -57,8 +57,8 @@ pub struct Solution {
     pub q: Vec<f64>,
     /// The working mode: signs of B_jj.
     pub mode: WorkingMode,
-    /// The legs (from 1) at a serial singularity, to the tolerance [`SINGULAR`]: their signs in `mode` mean nothing.
-    pub serial_legs: Vec<usize>,
+    /// The legs at a serial singularity, to the tolerance [`SINGULAR`]: their signs in `mode` mean nothing.
+    pub serial_legs: Vec<LegIndex>,
     /// det A = det ∂f/∂X.
     pub det_a: f64,
     /// Largest |f_i| relative to the leg's lengths squared.
@@ -110,8 +110,8 @@ pub enum KinematicsError {
     /// The length of a strut must be positive.
     #[error("joint coordinate {leg} is {}, but leg {leg} is a strut, whose length must be positive", written(*.value))]
     StrutLength {
-        /// Leg number, from 1.
-        leg: usize,
+        /// The leg.
+        leg: LegIndex,
         /// The value given.
         value: f64,
     },

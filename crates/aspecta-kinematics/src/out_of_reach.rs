@@ -3,14 +3,14 @@
 use super::placement::Placement;
 use super::{KinematicsError, for_platform};
 use crate::Kinematics;
-use aspecta_robot::Robot;
+use aspecta_robot::{LegIndex, Robot};
 use serde::Serialize;
 
 /// A leg that cannot close at a pose.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct OutOfReach {
-    /// Leg number, from 1.
-    pub leg: usize,
+    /// The leg.
+    pub leg: LegIndex,
     /// The amount by which its rod is too short or too long to join its ends, > 0: a length, or an angle
     /// (rad) for spherical legs. Numerical.
     pub gap: f64,
@@ -23,7 +23,7 @@ pub(crate) fn out_of_reach(robot: &Robot, pose: &[f64]) -> Result<Vec<OutOfReach
     let solutions = robot.leg_solutions(pose)?;
     let gaps = for_platform!(robot.platform, gaps(robot, pose));
     let describe = |(k, gap): (usize, f64)| OutOfReach {
-        leg: k + 1,
+        leg: LegIndex::new(k),
         gap,
         angle: robot.legs[k].actuator.kind().facts().is_on_sphere,
     };

@@ -4,7 +4,7 @@
 use super::placement::Placement;
 use aspecta_robot::legs::{Elbow, RigidRod};
 use aspecta_robot::num::without_turns;
-use aspecta_robot::{Leg, Limit, Platform, Robot, Window};
+use aspecta_robot::{Leg, LegIndex, Limit, Platform, Robot, Window};
 use nalgebra::Vector3;
 use serde::Serialize;
 
@@ -25,8 +25,8 @@ use serde::Serialize;
 /// long enough and not kept from pointing there by their limits.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ParallelRods {
-    /// The legs, from 1.
-    pub legs: Vec<usize>,
+    /// The legs.
+    pub legs: Vec<LegIndex>,
     /// P, in base coordinates.
     pub centre: [f64; 3],
     /// M: the poses are those at this distance from P.
@@ -61,9 +61,9 @@ pub fn parallel_rods(robot: &Robot, window: &Window) -> Vec<ParallelRods> {
         for point in tracks[i + 1..].iter().flat_map(|b| a.meet(b)) {
             let at = |(leg, t): (usize, &Track<'_>)| {
                 let equal = (t.rod - a.rod).abs() <= TOLERANCE * a.rod;
-                t.joint_at(&point).filter(|_| equal).map(|q| (leg + 1, q))
+                t.joint_at(&point).filter(|_| equal).map(|q| (LegIndex::new(leg), q))
             };
-            let (legs, q): (Vec<usize>, Vec<f64>) = tracks.iter().enumerate().filter_map(at).unzip();
+            let (legs, q): (Vec<LegIndex>, Vec<f64>) = tracks.iter().enumerate().filter_map(at).unzip();
             let near = |other: &ParallelRods| {
                 (Vector3::from(other.centre) - point).norm() <= 1e3 * TOLERANCE * a.rod
             };
@@ -175,7 +175,7 @@ mod tests {
         let found = rods_of(&robot);
         assert_eq!(found.len(), 2);
         for rods in &found {
-            assert_eq!(rods.legs, [1, 2, 3]);
+            assert_eq!(rods.legs, [0, 1, 2].map(LegIndex::new));
             // 164 − 44 + 524 cos q = 0, by hand.
             let height = (524f64.powi(2) - 120f64.powi(2)).sqrt();
             assert!(

@@ -1,6 +1,6 @@
 //! Singularities (Definitions 3 and 4): of which kind a configuration is, and how near it is to one.
 
-use super::{KinematicsError, WorkingMode};
+use super::{KinematicsError, LegIndex, WorkingMode};
 use crate::Kinematics;
 use aspecta_robot::{Actuator, Robot};
 use nalgebra::DMatrix;
@@ -91,8 +91,8 @@ pub struct State {
     /// revolute legs of the plane |sin| of the elbow angle, for prismatic legs |sin| of the angle between rail and
     /// rod. 0 at a serial singularity; 1 for struts.
     pub serial_measures: Vec<f64>,
-    /// The legs (from 1) in serial singularity.
-    pub serial_legs: Vec<usize>,
+    /// The legs in serial singularity.
+    pub serial_legs: Vec<LegIndex>,
     /// The measure at or below which a configuration is called singular: [`SINGULAR`].
     pub tolerance: f64,
 }
@@ -148,9 +148,10 @@ pub fn make_homogeneous(robot: &Robot, row: &mut [f64]) {
     }
 }
 
-/// The legs, from 1, that are at a serial singularity.
-pub(crate) fn serial_legs(robot: &Robot, b: &[f64]) -> Vec<usize> {
-    (1..).zip(serial_measures(robot, b)).filter(|(_, m)| *m <= SINGULAR).map(|(j, _)| j).collect()
+/// The legs that are at a serial singularity.
+pub(crate) fn serial_legs(robot: &Robot, b: &[f64]) -> Vec<LegIndex> {
+    let near = serial_measures(robot, b).into_iter().enumerate().filter(|(_, m)| *m <= SINGULAR);
+    near.map(|(j, _)| LegIndex::new(j)).collect()
 }
 
 fn serial_measures(robot: &Robot, b: &[f64]) -> Vec<f64> {

@@ -9,8 +9,9 @@
 //! joint angles of one leg, from the base to the platform, are coordinates of all configurations; and where
 //! another leg folds, its own are.
 
+use crate::leg_index::as_index;
 use crate::num::{Interval, Scalar, cross};
-use crate::{Robot, Window};
+use crate::{LegIndex, Robot, Window};
 use serde::{Deserialize, Serialize};
 
 /// Coordinates of configurations (X, q).
@@ -26,8 +27,8 @@ pub enum Chart {
 }
 
 impl Chart {
-    /// The leg whose own coordinates these are, from 0; its q is the first of them.
-    pub fn leg(&self) -> Option<usize> {
+    /// The leg whose own coordinates these are; its q is the first of them.
+    pub fn leg(&self) -> Option<LegIndex> {
         match self {
             Self::Pose => None,
             Self::Fold(fold) => Some(fold.leg),
@@ -85,8 +86,9 @@ impl Chart {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Fold {
-    /// Leg j, from 0.
-    pub leg: usize,
+    /// Leg j.
+    #[serde(with = "as_index")]
+    pub leg: LegIndex,
     /// L.
     pub crank: Interval,
     /// M.
@@ -114,8 +116,9 @@ pub struct Fold {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Chain {
-    /// Leg j, from 0.
-    pub leg: usize,
+    /// Leg j.
+    #[serde(with = "as_index")]
+    pub leg: LegIndex,
     /// The part of the configurations that the chart holds; `None` if it holds all.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bend: Option<Bend>,
@@ -140,7 +143,7 @@ impl Chain {
     /// Right-handed orthonormal axes of the platform: those that lie along m, sin b w − cos b (cos ψ n + sin
     /// ψ t) and v where ϑ = 0, with m = cos ψ t − sin ψ n.
     pub fn body(&self, robot: &Robot) -> [[Interval; 3]; 3] {
-        axes_about(&robot.legs[self.leg].attachment)
+        axes_about(&robot.legs[self.leg.index()].attachment)
     }
 
     /// The window of the chart: all of each angle, or what is near the fold.

@@ -14,6 +14,7 @@ pub mod constraint;
 mod file;
 mod frame;
 mod leg;
+mod leg_index;
 pub mod legs;
 pub mod num;
 mod platform;
@@ -31,6 +32,7 @@ pub(crate) use file::{Fault, LegKeys};
 pub use file::{FileError, Mistake, Problem};
 pub use frame::{crank_frame, rail_frame};
 pub use leg::{BASE_FRAME, Frame, Leg, Limit, into_frame, out_of_frame, point};
+pub use leg_index::LegIndex;
 pub use platform::{Coordinate, Platform};
 pub use slice::SliceError;
 pub use sound::{Takes, Unsound, holds, sane, takes, usable, wanted};
@@ -89,8 +91,8 @@ pub enum RobotError {
     /// The leg kind does not go with the platform.
     #[error("leg {leg}: a {actuator} leg cannot drive a `{platform}` platform: {hint}")]
     Mismatch {
-        /// Leg number, from 1.
-        leg: usize,
+        /// The leg.
+        leg: LegIndex,
         /// Kind of actuator.
         actuator: &'static str,
         /// The platform.
@@ -158,7 +160,7 @@ fn check_legs(platform: Platform, kinds: &[Kind]) -> Result<(), RobotError> {
     match kinds.iter().position(|kind| !kind.facts().fits(platform)) {
         None => Ok(()),
         Some(k) => Err(RobotError::Mismatch {
-            leg: k + 1,
+            leg: LegIndex::new(k),
             actuator: kinds[k].name(),
             platform,
             hint: "`spherical` legs and the `turning-body` platform go together, and with nothing else",

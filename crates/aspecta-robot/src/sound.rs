@@ -3,7 +3,8 @@
 use crate::file::is_line;
 use crate::num::{Interval, Scalar, cross, dot};
 use crate::{
-    Actuator, GREATEST, Leg, Limit, Platform, Prismatic, Revolute, Robot, RobotError, Spherical, Strut,
+    Actuator, GREATEST, Leg, LegIndex, Limit, Platform, Prismatic, Revolute, Robot, RobotError, Spherical,
+    Strut,
 };
 
 /// Parts that do not fit together.
@@ -15,8 +16,8 @@ pub enum Unsound {
     /// A constant of the robot that no robot can have.
     #[error("leg {leg} of the robot: {what}")]
     Leg {
-        /// Leg number, from 1.
-        leg: usize,
+        /// The leg.
+        leg: LegIndex,
         /// The fault.
         what: &'static str,
     },
@@ -86,7 +87,7 @@ impl Robot {
         for (j, leg) in self.legs.iter().enumerate() {
             let what = fault_of_leg(leg, self.platform);
             if let Some(what) = what {
-                return Err(Unsound::Leg { leg: j + 1, what });
+                return Err(Unsound::Leg { leg: LegIndex::new(j), what });
             }
         }
         Ok(())

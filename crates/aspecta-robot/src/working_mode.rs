@@ -1,6 +1,6 @@
 //! Working modes (Definition 7): the signs of B_jj, which name the inverse solutions.
 
-use crate::Robot;
+use crate::{LegIndex, Robot};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
 use std::str::FromStr;
@@ -36,7 +36,7 @@ impl WorkingMode {
         mode
     }
 
-    /// +1 or −1, the sign of B_jj for leg `j` (from 0).
+    /// +1 or −1, the sign of B_jj for the leg with index `j`, from 0.
     pub fn sign(self, j: usize) -> i8 {
         if self.negative >> j & 1 == 1 { -1 } else { 1 }
     }
@@ -46,9 +46,9 @@ impl WorkingMode {
         Self::from_signs(self.signs().map(|sign| sign < 0))
     }
 
-    /// Leg `j` (from 0) in its other posture.
-    pub fn with_other_posture(self, j: usize) -> Self {
-        Self { negative: self.negative ^ 1 << j, ..self }
+    /// This leg in its other posture.
+    pub fn with_other_posture(self, leg: LegIndex) -> Self {
+        Self { negative: self.negative ^ 1 << leg.index(), ..self }
     }
 
     /// Number of legs.
@@ -72,14 +72,14 @@ impl LegSet {
     /// Every leg.
     pub const ALL: Self = Self(u8::MAX);
 
-    /// Leg `j` (from 0) alone.
-    pub fn of(j: usize) -> Self {
-        Self(1 << j)
+    /// This leg alone.
+    pub fn of(leg: LegIndex) -> Self {
+        Self(1 << leg.index())
     }
 
-    /// Whether leg `j` (from 0) belongs to it.
-    pub fn holds(self, j: usize) -> bool {
-        self.0 >> j & 1 == 1
+    /// Whether this leg belongs to it.
+    pub fn holds(self, leg: LegIndex) -> bool {
+        self.0 >> leg.index() & 1 == 1
     }
 
     /// Whether two modes have these legs in the same postures.
@@ -166,11 +166,10 @@ mod tests {
         let choices =
             |legs: LegSet| legs.choices(3).map(|mode| mode.to_string()).collect::<Vec<_>>().join(" ");
         assert_eq!(choices(LegSet::NONE), "+++");
-        assert_eq!(choices(LegSet::of(1)), "+++ +-+");
+        assert_eq!(choices(LegSet::of(LegIndex::new(1))), "+++ +-+");
         assert_eq!(choices(LegSet::ALL).split(' ').count(), 8);
+        let [zero, one] = [0, 1].map(|j| LegSet::of(LegIndex::new(j)));
         let [a, b] = ["+-+", "--+"].map(|mode| mode.parse().unwrap());
-        assert!(
-            LegSet::of(1).are_alike(a, b) && !LegSet::of(0).are_alike(a, b) && !LegSet::ALL.are_alike(a, b)
-        );
+        assert!(one.are_alike(a, b) && !zero.are_alike(a, b) && !LegSet::ALL.are_alike(a, b));
     }
 }

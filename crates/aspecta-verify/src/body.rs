@@ -89,7 +89,7 @@ impl<'a, T: Scalar, const D: usize> Body<'a, T, D> {
             Chart::Pose if robot.platform == Platform::TurningBody => {}
             Chart::Pose => body.origin = std::array::from_fn(|k| y[k]),
             Chart::Fold(fold) => {
-                let leg = &robot.legs[fold.leg];
+                let leg = &robot.legs[fold.leg.index()];
                 let (sin, cos) = y[0].sin_cos();
                 let across = if D == 3 { y[1].square() + y[2].square() } else { y[1].square() };
                 // The rod's unit vector in the crank's frame is (radial, p, w).
@@ -101,7 +101,8 @@ impl<'a, T: Scalar, const D: usize> Body<'a, T, D> {
                 }
                 let (d, arm) = (out_of_frame(leg, &turned(cos, sin, &span)), body.arm(leg));
                 body.origin = std::array::from_fn(|k| d[k] + (T::constant(leg.anchor[k]) - arm[k]));
-                body.own = Some(Own { leg: fold.leg, cos, sin, span, swing: fold.crank + fold.crank });
+                body.own =
+                    Some(Own { leg: fold.leg.index(), cos, sin, span, swing: fold.crank + fold.crank });
             }
         }
         body

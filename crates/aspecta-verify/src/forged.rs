@@ -4,7 +4,7 @@ use super::*;
 use crate::certificate::{Claim, Entry, Leaf, Sheet as SheetOfFile, Tree};
 use aspecta_robot::chart::Fold;
 use aspecta_robot::constraint::Scale;
-use aspecta_robot::{Actuator, Leg, Platform, Revolute, Robot, WorkingMode, catalogue};
+use aspecta_robot::{Actuator, Leg, LegIndex, Platform, Revolute, Robot, WorkingMode, catalogue};
 
 fn sphere() -> Robot {
     Robot::from_toml(include_str!("../../aspecta/tests/fixtures/sphere.toml"), "sphere.toml").unwrap()
@@ -99,7 +99,7 @@ fn a_fold_in_a_slice_that_holds_a_translation() {
     let leaf = Leaf { undecided: 3, ..Leaf::default() };
     let mut forged =
         one_leaf(&robot, &[(0, 1.0)], robot.working_modes()[0], leaf, Claim { low: 0, high: None });
-    let fold = Fold { leg: 0, crank, rod, half_width: 0.1, axial: None };
+    let fold = Fold { leg: LegIndex::new(0), crank, rod, half_width: 0.1, axial: None };
     let tree = Tree(vec![Entry::Split, Entry::Leaf(leaf), Entry::Leaf(leaf)]);
     forged.sheets.push(SheetOfFile { chart: Chart::Fold(fold), tree });
     let verdict = verdict(&forged);

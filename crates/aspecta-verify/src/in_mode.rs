@@ -81,8 +81,8 @@ impl<'p, 'a, const D: usize> InMode<'p, 'a, D> {
         let mut known = Existence::Everywhere;
         for constraint in Constraint::of(self.place.setting.robot) {
             let values: ArrayVec<Interval, 2> = match constraint {
-                Constraint::Reach(j) => [self.legs[j].reach, self.legs[j].slope].into(),
-                Constraint::Limit(j, k) => [self.legs[j].limits[k]].into_iter().collect(),
+                Constraint::Reach(j) => [self.legs[j.index()].reach, self.legs[j.index()].slope].into(),
+                Constraint::Limit(j, k) => [self.legs[j.index()].limits[k]].into_iter().collect(),
                 // Its sign is not the mode's.
                 Constraint::Det => continue,
             };

@@ -42,7 +42,7 @@ impl<'a> Setting<'a> {
 
     /// Whether leg j is the chart's own, so that its q is the first coordinate.
     pub(super) fn is_own(&self, j: usize) -> bool {
-        self.chart.leg() == Some(j)
+        self.chart.leg().is_some_and(|leg| leg.index() == j)
     }
 
     /// Whether q of leg j comes from the pose by the root of H_j.
@@ -273,7 +273,7 @@ impl<'a, const D: usize> Place<'a, D> {
     fn margins_of(&self, chart: &Chart) -> Vec<Interval> {
         match chart {
             Chart::Fold(fold) => self.fold_margins(fold),
-            Chart::Chain(Chain { leg, bend: Some(bend) }) => vec![self.bend_margin(*leg, bend)],
+            Chart::Chain(Chain { leg, bend: Some(bend) }) => vec![self.bend_margin(leg.index(), bend)],
             Chart::Pose | Chart::Chain(_) => Vec::new(),
         }
     }
@@ -293,11 +293,12 @@ impl<'a, const D: usize> Place<'a, D> {
     /// Functions of the leg of a fold that are all ≥ 0 where its chart holds the configurations, as far as the leg closes: the rod's
     /// direction in the crank's frame has −2LM u_radial = L² + M² − ‖d‖², (2LM p)² = H and M w = γ.
     fn fold_margins(&self, fold: &Fold) -> Vec<Interval> {
-        let span = &self.spans[fold.leg];
-        let bend = self.over.bend(fold.leg, &span.over).0;
-        let middle_bend = self.at_middle.bend(fold.leg, &span.at_middle).0;
+        let span = &self.spans[fold.leg.index()];
+        let bend = self.over.bend(fold.leg.index(), &span.over).0;
+        let middle_bend = self.at_middle.bend(fold.leg.index(), &span.at_middle).0;
         let widest = Interval::point(2.0 * fold.half_width) * fold.crank * fold.rod;
-        let mut margins = vec![-self.range(&bend, middle_bend, None), widest.square() - self.reach[fold.leg]];
+        let mut margins =
+            vec![-self.range(&bend, middle_bend, None), widest.square() - self.reach[fold.leg.index()]];
         if let Some((lo, hi)) = fold.axial {
             let height = self.range(&span.over[D - 1], span.at_middle[D - 1], None);
             margins.push(height - fold.rod * Interval::point(lo));

@@ -129,13 +129,13 @@ impl<const D: usize> InMode<'_, '_, D> {
                 }
                 Constraint::Reach(j) => {
                     // √H = |B| (|B|/2) grows as s B does where that is positive.
-                    let (leg, s) = (&self.legs[j], exact(f64::from(self.mode.sign(j))));
-                    let gradient = of_leg(j, &leg.over.slope.gradient.map(|g| g * s));
-                    Bound { value: (leg.reach / size).sqrt(), gradient, height_of: Some(j) }
+                    let (leg, s) = (&self.legs[j.index()], exact(f64::from(self.mode.sign(j.index()))));
+                    let gradient = of_leg(j.index(), &leg.over.slope.gradient.map(|g| g * s));
+                    Bound { value: (leg.reach / size).sqrt(), gradient, height_of: Some(j.index()) }
                 }
                 Constraint::Limit(j, k) => {
-                    let leg = &self.legs[j];
-                    let gradient = of_leg(j, &leg.over.limits[k].gradient);
+                    let leg = &self.legs[j.index()];
+                    let gradient = of_leg(j.index(), &leg.over.limits[k].gradient);
                     Bound { value: leg.limits[k] / size, gradient, height_of: None }
                 }
             }

@@ -10,7 +10,7 @@ use aspecta::paving::Budget;
 use aspecta_robot::ClassSet;
 use aspecta_robot::constraint::Constraint;
 use aspecta_robot::num::Scalar;
-use aspecta_robot::{Leg as RobotLeg, Limit, Platform, Revolute, Robot, catalogue};
+use aspecta_robot::{Leg as RobotLeg, LegIndex, Limit, Platform, Revolute, Robot, catalogue};
 use proptest::prelude::*;
 use std::sync::LazyLock;
 use std::sync::atomic::AtomicBool;
@@ -402,8 +402,8 @@ fn every_leg_and_limit_is_listed() {
     for robot in known.chain([limited]) {
         let mut expected = vec![Constraint::Det];
         for (j, leg) in robot.legs.iter().enumerate() {
-            expected.extend((leg.actuator.postures() == 2).then_some(Constraint::Reach(j)));
-            expected.extend((0..leg.limits.len()).map(|k| Constraint::Limit(j, k)));
+            expected.extend((leg.actuator.postures() == 2).then_some(Constraint::Reach(LegIndex::new(j))));
+            expected.extend((0..leg.limits.len()).map(|k| Constraint::Limit(LegIndex::new(j), k)));
         }
         let listed: Vec<_> = Constraint::of(&robot).collect();
         assert_eq!(listed.len(), expected.len(), "{}", robot.name);

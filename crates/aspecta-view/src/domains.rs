@@ -8,6 +8,7 @@ use crate::figure::regions::{regions, uniqueness};
 use crate::figure::stack::stack;
 use crate::file::put;
 use crate::mesh::{Surfaces, gltf, ply, vtk};
+use aspecta::robot::LegIndex;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -28,8 +29,8 @@ pub enum MeshFormat {
 pub struct Choice {
     /// Formats of the meshes.
     pub meshes: Vec<MeshFormat>,
-    /// The joint, from 0, that is held in pictures of a joint space of three.
-    pub held: usize,
+    /// The joint, by its leg, that is held in pictures of a joint space of three.
+    pub held: LegIndex,
 }
 
 /// Writes pictures into `dir`, which is created if need be: `aspect-N-regions.svg`, `-uniqueness.svg`,

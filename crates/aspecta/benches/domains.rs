@@ -1,6 +1,6 @@
 //! Basic regions of one aspect, and where a pose lies among them. Run `cargo bench --bench domains`.
 
-use aspecta::aspect::{Analysis, Options, analyze};
+use aspecta::aspect::{Analysis, AspectId, Options, analyze};
 use aspecta::domain::{DomainOptions, Domains, Map, MappedAspect, domains};
 use aspecta::paving::{Budget, Control};
 use aspecta::robot::catalogue;
@@ -21,11 +21,11 @@ fn partition(c: &mut Criterion) {
     for cells in [100, 200] {
         let options = DomainOptions { cells, ..DomainOptions::default() };
         group.bench_function(format!("3-rrr, aspect 1, 1/{cells}"), |b| {
-            b.iter(|| domains(&analysis, 1, options, &control));
+            b.iter(|| domains(&analysis, AspectId::new(1), &options, &control));
         });
     }
     group.finish();
-    let found = domains(&analysis, 1, DomainOptions::default(), &control).expect("an aspect");
+    let found = domains(&analysis, AspectId::new(1), &DomainOptions::default(), &control).expect("an aspect");
     c.bench_function("domains/region at a pose", |b| {
         b.iter(|| found.region_at(&analysis, black_box(&[-15.468, 0.781, 0.073])));
     });

@@ -44,7 +44,7 @@ fn plan(c: &mut Criterion) {
         let mut joined = Vec::new();
         for pair in poses.chunks(2) {
             let start = Stopwatch::start();
-            if planner.plan(mode, &pair[0], &pair[1], &PlanOptions::default()).is_ok() {
+            if planner.plan(&pair[0], &pair[1], mode, &PlanOptions::default()).is_ok() {
                 times.push(start.seconds() * 1e3);
                 joined.push(pair);
             }
@@ -61,7 +61,7 @@ fn plan(c: &mut Criterion) {
         c.bench_function(&format!("{name}/plan, mean of pairs"), |b| {
             b.iter(|| {
                 i = (i + 1) % joined.len();
-                planner.plan(mode, black_box(&joined[i][0]), &joined[i][1], &PlanOptions::default()).is_ok()
+                planner.plan(black_box(&joined[i][0]), &joined[i][1], mode, &PlanOptions::default()).is_ok()
             })
         });
     }
@@ -93,7 +93,7 @@ fn free_body(c: &mut Criterion) {
         b.iter(|| {
             i = (i + 2) % poses.len();
             let ends = [&poses[i][..], black_box(&poses[i + 1])];
-            explore::plan(&robot, mode, ends, &PlanOptions::default(), &effort, &control).is_ok()
+            explore::plan(&robot, ends, mode, &PlanOptions::default(), &effort, &control).is_ok()
         })
     });
     let effort = Effort { samples: 512, seconds: None };

@@ -6,7 +6,7 @@
 //!
 //! # Examples
 //! ```
-//! use aspecta::{Budget, Control, DomainOptions, Kinematics, Map, MappedAspect, Options, Robot};
+//! use aspecta::{AspectId, Budget, Control, DomainOptions, Kinematics, Map, MappedAspect, Options, Robot};
 //!
 //! # fn main() -> Result<(), aspecta::Error> {
 //! let robot = Robot::resolve("five-bar")?;
@@ -22,7 +22,7 @@
 //!
 //! // Theorem 3: where in the first of them a joint vector means one pose.
 //! let options = DomainOptions { cells: 20, samples: 100 };
-//! let domains = aspecta::domains(&analysis, 1, options, &Control::unwatched())?;
+//! let domains = aspecta::domains(&analysis, AspectId::new(1), &options, &Control::unwatched())?;
 //! let map = Map::new(&analysis, vec![MappedAspect { domains, surfaces: None }]);
 //! let location = map.locate(&pose, solutions[0].mode)?;
 //! assert_eq!(location.mode.to_string(), "++");
@@ -72,6 +72,7 @@ struct Readme;
 pub mod aspect;
 pub mod domain;
 mod error;
+mod id;
 pub mod motion;
 pub mod paving;
 #[doc(hidden)]
@@ -101,14 +102,14 @@ pub use aspecta_kinematics::{DirectSolutions, Kinematics, Singularity, Solution,
 #[doc(inline)]
 pub use aspecta_robot::work::Control;
 #[doc(inline)]
-pub use aspecta_robot::{Actuator, Leg, Platform, Robot, WorkingMode};
+pub use aspecta_robot::{Actuator, Leg, LegIndex, Platform, Robot, WorkingMode};
 #[doc(inline)]
 pub use aspecta_verify::certificate::Certificate;
 #[doc(inline)]
 pub use aspecta_verify::{Verdict, verify};
 
-pub use aspect::{Analysis, Aspect, DetSign, Options, analyze};
-pub use domain::{DomainOptions, Domains, Location, Map, MappedAspect, domains};
+pub use aspect::{Analysis, Aspect, AspectId, ClassId, DetSign, Options, analyze};
+pub use domain::{DomainOptions, Domains, Location, Map, MappedAspect, RegionId, domains};
 pub use error::Error;
 pub use motion::assembly::{AssemblyModes, assembly_modes};
 pub use motion::explore::{Effort, Exploration, explore};

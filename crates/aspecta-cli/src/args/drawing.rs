@@ -1,5 +1,6 @@
 //! The options that choose what `domains --out` writes.
 
+use aspecta::robot::LegIndex;
 use aspecta_view::{Choice, MeshFormat};
 use clap::{Args, ValueEnum};
 
@@ -40,7 +41,8 @@ const JOINTS: [&str; 3] = ["q1", "q2", "q3"];
 impl Drawing {
     /// Returns the choice as the library takes it.
     pub fn choice(&self) -> Choice {
-        let held = JOINTS.iter().position(|joint| *joint == self.hold).unwrap_or(2);
+        let held =
+            JOINTS.iter().position(|joint| *joint == self.hold).map_or(LegIndex::new(2), LegIndex::new);
         Choice { meshes: self.meshes.iter().copied().map(MeshFormat::from).collect(), held }
     }
 }

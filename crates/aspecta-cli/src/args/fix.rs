@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use crate::input::Columns;
-use aspecta::robot::Robot;
+use aspecta::robot::{LegIndex, Robot};
 use clap::Args;
 
 /// What is held. Each command says what for.
@@ -22,12 +22,13 @@ impl FixArg {
         all(robot, &Columns::pose(robot), "coordinate", &self.fix)
     }
 
-    /// Joints, as in `q1=14.98`, `q2=30deg`: (index, value).
+    /// Joints, as in `q1=14.98`, `q2=30deg`: each by its leg, with its value.
     ///
     /// # Errors
     /// As [`Self::coordinates`].
-    pub fn joints(&self, robot: &Robot) -> Result<Vec<(usize, f64)>, Failure> {
-        all(robot, &Columns::joints(robot), "joint", &self.fix)
+    pub fn joints(&self, robot: &Robot) -> Result<Vec<(LegIndex, f64)>, Failure> {
+        let held = all(robot, &Columns::joints(robot), "joint", &self.fix)?;
+        Ok(held.into_iter().map(|(j, value)| (LegIndex::new(j), value)).collect())
     }
 }
 

@@ -113,7 +113,7 @@ impl Assembly {
             let change = if through {
                 planner.route(&ModeGraph::new(analysis), start, goal, &options)
             } else {
-                let plan = planner.plan(start.mode, start.pose, goal.pose, &options);
+                let plan = planner.plan(start.pose, goal.pose, start.mode, &options);
                 plan.map(Route::from).map_err(NoRoute::from)
             };
             let change = self.planning.moving.film(&robot, Some(analysis), change);
@@ -160,7 +160,7 @@ impl Assembly {
         }
         let ends = [&from.pose[..], &to.pose[..]];
         let change = self.planning.explore(|effort, control| {
-            let change = plan_over_roadmap(robot, from.mode, ends, options, (effort, control))?;
+            let change = plan_over_roadmap(robot, ends, from.mode, options, (effort, control))?;
             Ok(self.planning.moving.film(robot, None, change))
         })?;
         motion::print(out, robot, &change, &self.planning)

@@ -13,7 +13,7 @@ use crate::input;
 use crate::output::{self, FORMAT_VERSION, Target, note};
 use crate::work::mapping::{Part, Source, Wanted};
 use crate::work::watch::watched;
-use aspecta::aspect::{Analysis, Count, DetSign};
+use aspecta::aspect::{Analysis, AspectId, Count, DetSign};
 use aspecta::domain::characteristic::GivenUp;
 use aspecta::domain::{DomainError, Domains as Found, Map, MappedAspect, Surfaces};
 use aspecta::paving::Stop;
@@ -144,7 +144,7 @@ impl Domains {
             Sign::Plus => DetSign::Positive,
             Sign::Minus => DetSign::Negative,
         });
-        Ok(Wanted { mode, det_a, aspect: self.aspect })
+        Ok(Wanted { mode, det_a, aspect: self.aspect.map(AspectId::new) })
     }
 
     /// The slice, if one is asked for.
@@ -162,15 +162,15 @@ impl Domains {
     }
 
     /// The aspects that are wanted, of those that were found.
-    fn ids(&self, analysis: &Analysis, wanted: Wanted) -> Result<Vec<usize>, Failure> {
-        if let Some(id) = self.aspect
+    fn ids(&self, analysis: &Analysis, wanted: Wanted) -> Result<Vec<AspectId>, Failure> {
+        if let Some(id) = wanted.aspect
             && analysis.aspect(id).is_none()
         {
             return Err(DomainError::NoAspect { id, count: analysis.aspects.low }.into());
         }
         let of_class = |class: &aspecta::aspect::AspectClass| {
             let (mode, det_a) = (class.mode, class.det_a);
-            let ids: Vec<usize> = class.aspects.iter().map(|aspect| aspect.id).collect();
+            let ids: Vec<AspectId> = class.aspects.iter().map(|aspect| aspect.id).collect();
             ids.into_iter().filter(move |id| wanted.is(mode, det_a, *id))
         };
         Ok(analysis.classes.iter().flat_map(of_class).collect())
@@ -246,7 +246,7 @@ fn target(path: &Path) -> Result<Target, Failure> {
 }
 
 /// Says what of a characteristic surface is missing in the files.
-fn incomplete(aspect: usize, given_up: GivenUp) {
+fn incomplete(aspect: AspectId, given_up: GivenUp) {
     let GivenUp { rim, unclear, unsolved, unlocated } = given_up;
     let gaps = [
         (rim, "piece", "pieces", "of the boundary not followed at its rim"),

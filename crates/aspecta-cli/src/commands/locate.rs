@@ -13,7 +13,7 @@ use crate::show::places;
 use crate::work::mapping::{Part, Source};
 use crate::work::solve::{self, Found};
 use crate::work::watch::watched;
-use aspecta::aspect::Analysis;
+use aspecta::aspect::{Analysis, AspectId, ClassId};
 use aspecta::robot::Robot;
 use clap::Args;
 use std::collections::BTreeSet;
@@ -85,13 +85,13 @@ impl Locate {
 }
 
 /// The aspects in which these configurations lie, or may.
-fn concerned(analysis: &Analysis, found: &[Found]) -> Vec<usize> {
+fn concerned(analysis: &Analysis, found: &[Found]) -> Vec<AspectId> {
     let mut ids = BTreeSet::new();
     for s in found.iter().flat_map(|f| &f.solutions) {
         let classes = analysis.classes.iter().enumerate();
         let class = classes.filter(|(_, c)| c.mode == s.mode && f64::from(c.det_a.factor()) * s.det_a > 0.0);
         for (k, class) in class {
-            match analysis.aspect_at(k, &s.pose) {
+            match analysis.aspect_at(&s.pose, ClassId::new(k)) {
                 Some(id) => drop(ids.insert(id)),
                 None => ids.extend(class.aspects.iter().map(|aspect| aspect.id)),
             }

@@ -8,7 +8,7 @@ use crate::args::robot::RobotArg;
 use crate::failure::{Answer, Failure};
 use crate::output::{Align, FORMAT_VERSION, Labels, Table, brief, json};
 use crate::show::groups::AS_FAR;
-use aspecta::aspect::Count;
+use aspecta::aspect::{AspectId, Count};
 use aspecta::motion::modes::ModeGraph;
 use aspecta::robot::Robot;
 use aspecta_view::words::{between, count};
@@ -104,7 +104,7 @@ fn print(out: &mut dyn Write, robot: &Robot, graph: &ModeGraph, degrees: bool) -
     write!(out, "{table}")?;
     writeln!(out, "\nAspects that can be reached from one another without a parallel singularity")?;
     for group in &graph.groups {
-        let name = |id: &usize| {
+        let name = |id: &AspectId| {
             let mode = graph
                 .aspects
                 .iter()

@@ -74,7 +74,7 @@ impl Plan {
                 let graph = ModeGraph::new(analysis);
                 planner.route(&graph, ends[0], ends[1], &options)
             } else {
-                let plan = planner.plan(mode, &from, &to, &options);
+                let plan = planner.plan(&from, &to, mode, &options);
                 plan.map(Route::from).map_err(NoRoute::from)
             };
             Ok(self.planning.moving.film(&robot, Some(analysis), result))
@@ -99,7 +99,7 @@ impl Plan {
             )));
         }
         let planned = self.planning.explore(|effort, control| {
-            let result = plan_over_roadmap(robot, mode, ends, options, (effort, control))?;
+            let result = plan_over_roadmap(robot, ends, mode, options, (effort, control))?;
             Ok(self.planning.moving.film(robot, None, result))
         })?;
         motion::print(out, robot, &planned, &self.planning)

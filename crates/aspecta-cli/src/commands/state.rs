@@ -12,7 +12,7 @@ use crate::show::solutions::signs;
 use crate::work::solve;
 use aspecta::Kinematics;
 use aspecta::kinematics::{self, WorkingMode};
-use aspecta::robot::Robot;
+use aspecta::robot::{LegIndex, Robot};
 use clap::Args;
 use serde::Serialize;
 use std::io::Write;
@@ -190,7 +190,7 @@ fn print_one(
     )?;
     let serial: Vec<_> = s.serial_measures.iter().map(|m| number(*m)).collect();
     writeln!(out, "to serial     {} (|B_jj| / max, per leg)", serial.join(", "))?;
-    let legs: Vec<_> = s.serial_legs.iter().map(usize::to_string).collect();
+    let legs: Vec<_> = s.serial_legs.iter().map(LegIndex::to_string).collect();
     let which = if legs.is_empty() {
         String::new()
     } else {

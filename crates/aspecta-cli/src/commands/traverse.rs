@@ -9,7 +9,8 @@ use crate::input::{self, Columns};
 use crate::output::{Align, FORMAT_VERSION, Labels, Table, json};
 use crate::show::groups::AS_FAR;
 use crate::work::mapping::Source;
-use aspecta::domain::Map;
+use aspecta::aspect::AspectId;
+use aspecta::domain::{Map, RegionId};
 use aspecta::kinematics::constraints::{Constraint, Kind};
 use aspecta::motion::modes::ModeGraph;
 use aspecta::motion::traverse::{ClassHolds, Holds, PoseSet, Traversability, traversability};
@@ -75,7 +76,7 @@ struct Document<'a> {
 /// A uniqueness domain that holds the set.
 #[derive(Serialize)]
 struct InDomain {
-    aspect: usize,
+    aspect: AspectId,
     domain: usize,
 }
 
@@ -162,7 +163,7 @@ fn read_map(path: &str, robot: &Robot) -> Result<Map, Failure> {
 fn domains_of(map: &Map, found: &Traversability) -> Vec<InDomain> {
     let poses = sampled(&found.set);
     let held = |class: &ClassHolds| {
-        let regions: Option<Vec<(usize, usize)>> = poses
+        let regions: Option<Vec<(AspectId, RegionId)>> = poses
             .iter()
             .map(|pose| {
                 let place = map.locate(pose, class.mode).ok().filter(|place| place.det_a == class.det_a)?;
@@ -238,7 +239,7 @@ fn what(robot: &Robot, constraint: Option<Constraint>) -> String {
         None => "another aspect, or beyond the robot's window".into(),
         Some(constraint) => match constraint.kind() {
             Kind::Parallel => format!("the other sign of {constraint}"),
-            Kind::Serial(leg) => format!("leg {} does not reach", leg + 1),
+            Kind::Serial(leg) => format!("leg {leg} does not reach"),
             Kind::Limit => constraint.named(robot),
         },
     }
@@ -252,7 +253,7 @@ fn print_groups(out: &mut dyn Write, found: &Traversability) -> Result<(), Failu
         )?;
     }
     for group in &found.groups {
-        let ids = group.aspects.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
+        let ids = group.aspects.iter().map(AspectId::to_string).collect::<Vec<_>>().join(", ");
         let word = if group.certified { "certified" } else { AS_FAR };
         writeln!(
             out,

@@ -4,8 +4,8 @@ use crate::failure::Failure;
 use crate::input::Columns;
 use crate::output::{Align, Format, Labels, Table, exact, json_of_each};
 use crate::work::solve::Found;
-use aspecta::aspect::DetSign;
-use aspecta::domain::{Map, Nowhere};
+use aspecta::aspect::{AspectId, DetSign};
+use aspecta::domain::{Map, Nowhere, RegionId};
 use aspecta::kinematics::{Solution, WorkingMode};
 use aspecta::robot::Robot;
 use serde::Serialize;
@@ -18,8 +18,8 @@ struct Place<'a> {
     det_a: Option<DetSign>,
     pose: &'a [f64],
     q: &'a [f64],
-    aspect: Option<usize>,
-    region: Option<usize>,
+    aspect: Option<AspectId>,
+    region: Option<RegionId>,
     /// Direct solutions in the aspect of the joint vectors of the region.
     solutions: Option<u8>,
     /// Numbers of the uniqueness domains of the aspect that hold the region.
@@ -50,7 +50,7 @@ impl<'a> Place<'a> {
         let domains = location.aspect.and_then(|aspect| map.domains(aspect));
         match (location.aspect, domains, location.region) {
             (Some(aspect), Some(domains), Some(region)) => {
-                place.solutions = domains.regions.get(region - 1).map(|region| region.solutions);
+                place.solutions = domains.regions.get(region.number() - 1).map(|region| region.solutions);
                 place.uniqueness = map.uniqueness(aspect, region).collect();
             }
             (Some(_), Some(_), None) => {
@@ -163,13 +163,15 @@ fn line(found: &Found) -> String {
 
 /// Mode, sign of det A, aspect, region, solutions, uniqueness domains, and why something is missing.
 fn labels_of(place: &Place<'_>) -> [String; 7] {
-    let number = |n: Option<usize>| n.map_or(String::new(), |n| n.to_string());
+    fn text(number: Option<impl ToString>) -> String {
+        number.map_or(String::new(), |number| number.to_string())
+    }
     [
         place.mode.to_string(),
-        place.det_a.map_or(String::new(), |sign| sign.to_string()),
-        number(place.aspect),
-        number(place.region),
-        number(place.solutions.map(usize::from)),
+        text(place.det_a),
+        text(place.aspect),
+        text(place.region),
+        text(place.solutions),
         place.uniqueness.iter().map(usize::to_string).collect::<Vec<_>>().join(" "),
         place.why.clone().unwrap_or_default(),
     ]

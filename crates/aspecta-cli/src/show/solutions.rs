@@ -6,7 +6,7 @@ use crate::input::Columns;
 use crate::output::{Align, Format, Labels, Table, det_a_unit, exact, json_of_each, number};
 use crate::work::solve::Found;
 use aspecta::kinematics::{Solution, WorkingMode};
-use aspecta::robot::Robot;
+use aspecta::robot::{LegIndex, Robot};
 use aspecta_view::words::count;
 use serde::Serialize;
 use std::io::Write;
@@ -160,7 +160,7 @@ pub fn mode(solution: &Solution) -> String {
 }
 
 /// The signs of a mode, with 0 for these legs.
-pub fn signs(mode: WorkingMode, serial_legs: &[usize]) -> String {
-    let sign = |(leg, sign)| if serial_legs.contains(&leg) { '0' } else { sign };
-    (1..).zip(mode.to_string().chars()).map(sign).collect()
+pub fn signs(mode: WorkingMode, serial_legs: &[LegIndex]) -> String {
+    let sign = |(j, sign)| if serial_legs.contains(&LegIndex::new(j)) { '0' } else { sign };
+    mode.to_string().chars().enumerate().map(sign).collect()
 }

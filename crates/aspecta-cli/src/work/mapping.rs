@@ -4,7 +4,7 @@ use crate::args::budget;
 use crate::args::making::Making;
 use crate::failure::{Failure, advice};
 use crate::input;
-use aspecta::aspect::{Analysis, DetSign, Options, analyze};
+use aspecta::aspect::{Analysis, AspectId, DetSign, Options, analyze};
 use aspecta::domain::boundary::Boundary;
 use aspecta::domain::characteristic::Characteristic;
 use aspecta::domain::{DomainOptions, Domains, Map, MappedAspect, Surfaces, domains, slice};
@@ -29,7 +29,7 @@ pub struct Wanted {
     /// Only the aspects with this sign of det A.
     pub det_a: Option<DetSign>,
     /// The one with this number.
-    pub aspect: Option<usize>,
+    pub aspect: Option<AspectId>,
 }
 
 /// The part of a robot that is looked at.
@@ -50,7 +50,7 @@ impl Part {
 
 impl Wanted {
     /// Whether an aspect is.
-    pub fn is(&self, mode: WorkingMode, det_a: DetSign, aspect: usize) -> bool {
+    pub fn is(&self, mode: WorkingMode, det_a: DetSign, aspect: AspectId) -> bool {
         self.mode.is_none_or(|wanted| wanted == mode)
             && self.det_a.is_none_or(|wanted| wanted == det_a)
             && self.aspect.is_none_or(|wanted| wanted == aspect)
@@ -84,7 +84,7 @@ impl Source {
         part: Part,
         surfaces: bool,
         control: &Control<'_>,
-        wanted: impl Fn(&Analysis) -> Result<Vec<usize>, Failure>,
+        wanted: impl Fn(&Analysis) -> Result<Vec<AspectId>, Failure>,
     ) -> Result<(Map, Option<Stop>), Failure> {
         match self {
             Self::Robot(robot) => making.map(&robot, part, surfaces, control, wanted),
@@ -118,7 +118,7 @@ impl Making {
         part: Part,
         with_surfaces: bool,
         control: &Control<'_>,
-        wanted: impl Fn(&Analysis) -> Result<Vec<usize>, Failure>,
+        wanted: impl Fn(&Analysis) -> Result<Vec<AspectId>, Failure>,
     ) -> Result<(Map, Option<Stop>), Failure> {
         let free = part.free(robot);
         let budget = self.budget.unwrap_or_else(|| budget::coarse(free));
@@ -126,8 +126,9 @@ impl Making {
         let usual = usual_options(robot, free);
         let cells = self.cells.map_or(usual.cells, usize::from);
         let analysis = analyze(robot, &options, control)?;
-        let sheet = |id: usize| {
-            let mut domains = domains(&analysis, id, DomainOptions { cells, ..usual }, control)?;
+        let options = DomainOptions { cells, ..usual };
+        let sheet = |id: AspectId| {
+            let mut domains = domains(&analysis, id, &options, control)?;
             let surfaces = with_surfaces.then(|| surfaces(&analysis, &domains, cells)).transpose()?;
             if let Some(Surfaces { characteristic, .. }) = &surfaces {
                 domains.measure_disagreements(characteristic, &analysis.window);

@@ -58,7 +58,7 @@ impl Planning {
                 return check_ends(robot, &window, [start, goal]).err();
             }
             let ends = [start.pose, goal.pose];
-            Planner::check_ends(robot, &window, start.mode, ends, options).err().map(NoRoute::from)
+            Planner::check_ends(robot, &window, ends, start.mode, options).err().map(NoRoute::from)
         });
         Ok(refusal.map(|refusal| Planned { result: Err(refusal), page: None }))
     }
@@ -90,12 +90,12 @@ impl Planning {
 /// [`Failure::Explore`].
 pub fn plan_over_roadmap(
     robot: &Robot,
-    mode: WorkingMode,
     ends: [&[f64]; 2],
+    mode: WorkingMode,
     options: &PlanOptions,
     (effort, control): (&Effort, &Control<'_>),
 ) -> Result<Result<Route, NoRoute>, Failure> {
-    match explore::plan(robot, mode, ends, options, effort, control) {
+    match explore::plan(robot, ends, mode, options, effort, control) {
         Ok(plan) => Ok(Ok(plan.into())),
         Err(NoWay::Refused(refusal)) => Ok(Err(refusal.into())),
         Err(NoWay::Robot(error)) => Err(error.into()),

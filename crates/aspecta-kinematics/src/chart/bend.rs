@@ -9,7 +9,7 @@ use super::{LEAST, largest_apart};
 use aspecta_robot::chart::{Bend, Chain};
 use aspecta_robot::legs::Spherical;
 use aspecta_robot::num::{Interval, dot};
-use aspecta_robot::{Robot, Window};
+use aspecta_robot::{LegIndex, Robot, Window};
 
 /// How near (rad) v comes to the motor's axis if the leg counts as one that folds: else the boxes round the
 /// nearest orientations would have to be very small.
@@ -22,12 +22,12 @@ pub(super) fn bends(robot: &Robot, all: &Chain) -> Vec<Chain> {
     found.into_iter().map(|cap| cap.chain).filter(|chain| chain.leg != all.leg).collect()
 }
 
-/// The legs (from 0) that can fold where no chart opens it up: other ones than that of the chart of all
+/// The legs that can fold where no chart opens it up: other ones than that of the chart of all
 /// configurations, if two legs can fold at once. Boxes there are never decided.
-pub fn uncharted_folds(robot: &Robot, window: &Window) -> Vec<usize> {
+pub fn uncharted_folds(robot: &Robot, window: &Window) -> Vec<LegIndex> {
     let Some(all) = chain::of(robot, window) else { return Vec::new() };
     let charted = bends(robot, &all);
-    let mut legs: Vec<usize> = caps(robot, LEAST)
+    let mut legs: Vec<LegIndex> = caps(robot, LEAST)
         .into_iter()
         .filter(|cap| {
             cap.reaches && cap.chain.leg != all.leg && !charted.iter().any(|c| c.leg == cap.chain.leg)
@@ -64,7 +64,7 @@ impl Cap {
             let reaches = (cos_a - cos_b * Interval::point(side)).contains(0.0);
             let radius = (side * a.cos() * b.cos() + a.sin() * b.sin() * half_width.cos()).acos();
             let end = robot.legs[leg].frame[2].map(|x| side * x.mid());
-            let chain = Chain { leg, bend: Some(Bend { back, half_width }) };
+            let chain = Chain { leg: LegIndex::new(leg), bend: Some(Bend { back, half_width }) };
             (least < NEAR).then_some(Self { chain, end, radius, reaches })
         };
         [true, false].into_iter().filter_map(cap).collect()
@@ -73,7 +73,7 @@ impl Cap {
     /// Whether no orientation is in both, by the triangle inequality on the sphere; the twentieth to spare is
     /// far beyond rounding.
     fn is_apart_from(&self, other: &Self, robot: &Robot) -> bool {
-        let joint = |cap: &Self| robot.legs[cap.chain.leg].attachment.map(|x| x.mid());
+        let joint = |cap: &Self| robot.legs[cap.chain.leg.index()].attachment.map(|x| x.mid());
         let between = |x: [f64; 3], y: [f64; 3]| dot(&x, &y).clamp(-1.0, 1.0).acos();
         let (base, body) = (between(self.end, other.end), between(joint(self), joint(other)));
         (base - body).abs() > 1.05 * (self.radius + other.radius)
@@ -96,7 +96,8 @@ mod tests {
     }
 
     fn charted(robot: &Robot) -> Vec<Option<usize>> {
-        charts(robot, &robot.slice(&[]).unwrap()).iter().map(Chart::leg).collect()
+        let charts = charts(robot, &robot.slice(&[]).unwrap());
+        charts.iter().map(|chart| chart.leg().map(LegIndex::index)).collect()
     }
 
     /// Returns a robot with right angles only, in general position, so that each leg folds at both ends of
@@ -117,14 +118,13 @@ mod tests {
     fn legs_that_fold_have_charts() {
         assert_eq!(charted(&folding()), [Some(0), Some(2)]);
         assert_eq!(charted(&six_folds()), [0, 1, 1, 2, 2].map(Some));
-        let none: [usize; 0] = [];
         for robot in [folding(), six_folds()] {
-            assert_eq!(uncharted_folds(&robot, &robot.slice(&[]).unwrap()), none);
+            assert_eq!(uncharted_folds(&robot, &robot.slice(&[]).unwrap()), []);
         }
         // All legs of the Agile Eye can fold at once.
         let eye = catalogue::find("spherical-3-rrr").unwrap();
         assert_eq!(charted(&eye), [Some(0)]);
-        assert_eq!(uncharted_folds(&eye, &eye.slice(&[]).unwrap()), [1, 2]);
+        assert_eq!(uncharted_folds(&eye, &eye.slice(&[]).unwrap()), [1, 2].map(LegIndex::new));
     }
 
     /// A chart covers an orientation just if the elbow is as near to its end as the chart says; and no two
@@ -132,7 +132,7 @@ mod tests {
     #[test]
     fn charts_cover_what_they_hold() {
         let robot = six_folds();
-        let found = bends(&robot, &Chain { leg: 9, bend: None });
+        let found = bends(&robot, &Chain { leg: LegIndex::new(9), bend: None });
         assert_eq!(found.len(), 6);
         let mut random = Random::new(3);
         let mut covered = [0; 6];
@@ -142,7 +142,11 @@ mod tests {
             let mut here = Vec::new();
             for (k, chain) in found.iter().enumerate() {
                 let bend = chain.bend.as_ref().unwrap();
-                let margin = chain::cover(bend, &robot.legs[chain.leg].actuator, &legs[chain.leg].span);
+                let margin = chain::cover(
+                    bend,
+                    &robot.legs[chain.leg.index()].actuator,
+                    &legs[chain.leg.index()].span,
+                );
                 let all = Chain { leg: chain.leg, bend: None };
                 let [y, _] = chain::coordinates::<3, 3>(&all, &robot, &placement.map(Interval::point));
                 let end = if bend.back { PI } else { 0.0 };
@@ -169,8 +173,8 @@ mod tests {
         let robot = six_folds();
         let mut random = Random::new(4);
         let mut compared = 0;
-        for chain in bends(&robot, &Chain { leg: 0, bend: None }) {
-            let all = Chain { leg: 0, bend: None };
+        for chain in bends(&robot, &Chain { leg: LegIndex::new(0), bend: None }) {
+            let all = Chain { leg: LegIndex::new(0), bend: None };
             for _ in 0..200 {
                 let half_width = chain.bend.as_ref().unwrap().half_width;
                 let y = [3.1, half_width, 3.1].map(|end| random.within((-end, end)));

@@ -5,7 +5,7 @@ use crate::placement::{Placement, into_frame, out_of_frame, roll_pitch_yaw};
 use aspecta_robot::chart::{Bend, Chain};
 use aspecta_robot::legs::{Closure, Spherical};
 use aspecta_robot::num::{Interval, Scalar, dot, each};
-use aspecta_robot::{Actuator, Platform, Robot, Window};
+use aspecta_robot::{Actuator, LegIndex, Platform, Robot, Window};
 
 /// A function of leg j at an orientation: where it is positive and the leg closes, the chart covers the
 /// orientation.
@@ -28,7 +28,8 @@ fn angles_of(actuator: &Actuator) -> [(Interval, Interval); 2] {
 pub(super) fn of(robot: &Robot, window: &Window) -> Option<Chain> {
     let whole = window.cut.iter().all(|&cut| cut == (false, false)) && window.held().next().is_none();
     let spherical = robot.legs.first()?.actuator.as_spherical().is_some();
-    (robot.platform == Platform::TurningBody && spherical && whole).then_some(Chain { leg: 0, bend: None })
+    (robot.platform == Platform::TurningBody && spherical && whole)
+        .then_some(Chain { leg: LegIndex::new(0), bend: None })
 }
 
 /// [`super::Coordinates::at`].
@@ -37,7 +38,7 @@ pub(super) fn at<T: Scalar, const D: usize, const N: usize>(
     robot: &Robot,
     turn: impl Fn(usize) -> (T, T),
 ) -> (Placement<T, D>, [LegClosure<T, D>; N]) {
-    let leg = &robot.legs[chain.leg];
+    let leg = &robot.legs[chain.leg.index()];
     let (sin, cos) = turn(0);
     let (sin_psi, cos_psi) = match chain.bend {
         Some(Bend { back: true, .. }) => (-turn(1).0, -turn(1).1),
@@ -52,7 +53,7 @@ pub(super) fn at<T: Scalar, const D: usize, const N: usize>(
     let mut legs = closures(robot, &placement);
     let b = sin_psi.scale(most);
     let weight = T::constant(Interval::point(1.0));
-    legs[chain.leg] = LegClosure {
+    legs[chain.leg.index()] = LegClosure {
         arm: base[2],
         span: v,
         closure: Closure { reach: b.square(), weight, fixed: w, swing: [T::zero(); D] },
@@ -68,7 +69,7 @@ pub fn coordinates<const D: usize, const N: usize>(
     robot: &Robot,
     placement: &Placement<Interval, D>,
 ) -> [[Interval; N]; 2] {
-    let leg = &robot.legs[chain.leg];
+    let leg = &robot.legs[chain.leg.index()];
     let [(cos_a, sin_a), (cos_b, sin_b)] = angles_of(&leg.actuator);
     let angle = |cos: Interval, sin: Interval| Interval::angle(cos, sin).unwrap_or(Interval::ENTIRE);
     let v: [Interval; D] = into_frame(leg, &placement.arm(leg));
@@ -149,7 +150,7 @@ mod tests {
         let robot = Robot::from_toml(SPHERE, "sphere.toml").unwrap();
         let mut random = Random::new(7);
         for leg in 0..3 {
-            let chart = Chart::Chain(Chain { leg, bend: None });
+            let chart = Chart::Chain(Chain { leg: LegIndex::new(leg), bend: None });
             let mut compared = 0;
             for _ in 0..1000 {
                 let y: [f64; 3] = std::array::from_fn(|_| random.within((-3.1, 3.1)));
@@ -194,8 +195,9 @@ mod tests {
         let robot = Robot::from_toml(SPHERE, "sphere.toml").unwrap();
         let mut random = Random::new(9);
         for (back, end) in [(true, std::f64::consts::PI), (false, 0.0)] {
-            let part = Chart::Chain(Chain { leg: 2, bend: Some(Bend { back, half_width: 0.3 }) });
-            let whole = Chart::Chain(Chain { leg: 2, bend: None });
+            let part =
+                Chart::Chain(Chain { leg: LegIndex::new(2), bend: Some(Bend { back, half_width: 0.3 }) });
+            let whole = Chart::Chain(Chain { leg: LegIndex::new(2), bend: None });
             for _ in 0..100 {
                 let y = [3.1, 0.3, 3.1].map(|end| random.within((-end, end)));
                 let z = [y[0], y[1] + end, y[2]];
@@ -217,7 +219,7 @@ mod tests {
     #[test]
     fn images_hold_poses() {
         let robot = Robot::from_toml(SPHERE, "sphere.toml").unwrap();
-        let chart = Chart::Chain(Chain { leg: 1, bend: None });
+        let chart = Chart::Chain(Chain { leg: LegIndex::new(1), bend: None });
         let mut random = Random::new(8);
         let mut bounded = 0;
         for _ in 0..500 {

@@ -7,7 +7,7 @@ use arrayvec::ArrayVec;
 use aspecta_robot::chart::Fold;
 use aspecta_robot::legs::{Closure, Revolute, sum_of_squares};
 use aspecta_robot::num::{Interval, Scalar, each};
-use aspecta_robot::{Platform, Robot, Window};
+use aspecta_robot::{LegIndex, Platform, Robot, Window};
 
 /// [`super::Coordinates::at`].
 pub(super) fn at<T: Scalar, const D: usize, const N: usize>(
@@ -16,7 +16,7 @@ pub(super) fn at<T: Scalar, const D: usize, const N: usize>(
     y: &[T; N],
     turn: impl Fn(usize) -> (T, T),
 ) -> (Placement<T, D>, [LegClosure<T, D>; N]) {
-    let leg = &robot.legs[fold.leg];
+    let leg = &robot.legs[fold.leg.index()];
     let (crank, rod) = (fold.crank, fold.rod);
     let one = T::constant(Interval::point(1.0));
     let (sin, cos) = turn(0);
@@ -38,7 +38,7 @@ pub(super) fn at<T: Scalar, const D: usize, const N: usize>(
     let placement = Placement::with_end(robot.platform, leg, &out_of_frame(leg, &span), turn);
     let mut legs = closures(robot, &placement);
     let b = -tangential.scale(Interval::point(2.0) * crank * rod);
-    legs[fold.leg] = LegClosure {
+    legs[fold.leg.index()] = LegClosure {
         arm: placement.arm(leg),
         span,
         closure: Closure {
@@ -108,7 +108,7 @@ impl Place {
             // d² = L² + M² − 2LM √(1 − p²) at most.
             let radius = (l * l + m * m - 2.0 * l * m * (1.0 - p * p).max(0.0).sqrt()).sqrt();
             let near = (l - m).abs() < 0.05 * (l + m) && p < 0.9;
-            let fold = Fold { leg, crank, rod, half_width: p, axial: None };
+            let fold = Fold { leg: LegIndex::new(leg), crank, rod, half_width: p, axial: None };
             return near.then_some(Self { fold, height: 0.0, radius: 1.01 * radius }).into_iter().collect();
         }
         if m < l * (1.0 - 1e-9) {
@@ -127,7 +127,11 @@ impl Place {
             // Off the axis at most |L + M u_radial| and M |p|.
             let radial = (l - m * (1.0 - p * p - outer * outer).sqrt()).abs().max((m - l).min(size * l));
             let radius = 1.01 * (half * half + radial * radial + (m * p).powi(2)).sqrt();
-            Self { fold: Fold { leg, crank, rod, half_width: p, axial: Some((lo, hi)) }, height, radius }
+            Self {
+                fold: Fold { leg: LegIndex::new(leg), crank, rod, half_width: p, axial: Some((lo, hi)) },
+                height,
+                radius,
+            }
         };
         ranges.into_iter().map(place).collect()
     }
@@ -136,12 +140,12 @@ impl Place {
     /// rounding.
     fn is_apart_from(&self, other: &Self, robot: &Robot, window: &Window) -> bool {
         let centre = |place: &Self| {
-            let leg = &robot.legs[place.fold.leg];
+            let leg = &robot.legs[place.fold.leg.index()];
             std::array::from_fn::<f64, 3, _>(|k| leg.anchor[k].mid() + place.height * leg.frame[2][k].mid())
         };
         let still: Vec<f64> = window.ranges.iter().map(|r| r.0).collect();
         let arm = |place: &Self| -> [f64; 3] {
-            let leg = &robot.legs[place.fold.leg];
+            let leg = &robot.legs[place.fold.leg.index()];
             match robot.platform {
                 Platform::FreeBody => Placement::<f64, 3>::at(robot.platform, &still).arm(leg),
                 Platform::PlanePoint

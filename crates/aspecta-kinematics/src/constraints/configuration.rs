@@ -36,9 +36,12 @@ impl<'a, T: Scalar, const D: usize, const N: usize> Configuration<'a, T, D, N> {
     /// than this, nothing is said.
     pub fn margin(&self, constraint: Constraint) -> T {
         match constraint {
-            Constraint::Limit(j, k) => {
-                margin(&self.robot.legs[j].limits[k], &self.leg(j), self.height(j), self.placement)
-            }
+            Constraint::Limit(j, k) => margin(
+                &self.robot.legs[j.index()].limits[k],
+                &self.leg(j.index()),
+                self.height(j.index()),
+                self.placement,
+            ),
             Constraint::Reach(_) | Constraint::Det => T::constant(Interval::ENTIRE),
         }
     }
@@ -47,7 +50,9 @@ impl<'a, T: Scalar, const D: usize, const N: usize> Configuration<'a, T, D, N> {
     /// configuration, whatever coordinates it was computed in.
     pub fn unit(&self, constraint: Constraint) -> T {
         match constraint {
-            Constraint::Limit(j, k) => unit(&self.robot.legs[j].limits[k], &self.leg(j), self.height(j)),
+            Constraint::Limit(j, k) => {
+                unit(&self.robot.legs[j.index()].limits[k], &self.leg(j.index()), self.height(j.index()))
+            }
             Constraint::Reach(_) | Constraint::Det => T::constant(Interval::ENTIRE),
         }
     }
@@ -63,10 +68,11 @@ impl<'a, T: Scalar, const D: usize, const N: usize> Configuration<'a, T, D, N> {
         match constraint {
             Constraint::Limit(j, k) => {
                 // One by one: as a tuple they would be copied twice, which is seen in the proof that nothing is hidden.
-                let leg = self.legs[j].map(still);
+                let leg = self.legs[j.index()].map(still);
                 let placement = self.placement.map(still);
-                let sh = height(j);
-                let (limit, at) = (&self.robot.legs[j].limits[k], LegAt::of(&self.robot.legs[j], &leg));
+                let sh = height(j.index());
+                let (limit, at) =
+                    (&self.robot.legs[j.index()].limits[k], LegAt::of(&self.robot.legs[j.index()], &leg));
                 (margin(limit, &at, sh, &placement) / unit(limit, &at, sh)).gradient[0]
             }
             Constraint::Reach(_) | Constraint::Det => U::constant(Interval::ENTIRE),

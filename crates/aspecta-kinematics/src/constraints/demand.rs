@@ -4,9 +4,8 @@ use super::margins::{least_reach, unit_of_det};
 use super::{Configuration, Constraint, Kind, Margins};
 use crate::modal::{LegClosure, ModalRows};
 use crate::placement::Placement;
-use aspecta_robot::Robot;
-use aspecta_robot::WorkingMode;
 use aspecta_robot::num::{Interval, Scalar, each};
+use aspecta_robot::{LegIndex, Robot, WorkingMode};
 use std::cell::LazyCell;
 
 /// The demand on the configurations of a path.
@@ -20,9 +19,9 @@ pub struct Demand {
     pub margins: Margins,
     /// Whether they keep the limits of the machine.
     pub limits: bool,
-    /// A leg (from 0) that may come to its serial singularity: all else is asked of both its postures,
+    /// A leg that may come to its serial singularity: all else is asked of both its postures,
     /// wherever they exist and where they meet.
-    pub crossing: Option<usize>,
+    pub crossing: Option<LegIndex>,
 }
 
 impl Demand {
@@ -59,7 +58,7 @@ impl<'a, T: Scalar, const D: usize, const N: usize> Constraints<'a, T, D, N> {
         let Self { robot, placement, legs, .. } = *self;
         for constraint in Constraint::of(robot) {
             if let Kind::Serial(j) = constraint.kind()
-                && !visit(constraint, self.reach(j, demand))
+                && !visit(constraint, self.reach(j.index(), demand))
             {
                 return;
             }
@@ -91,7 +90,7 @@ impl<'a, T: Scalar, const D: usize, const N: usize> Constraints<'a, T, D, N> {
             return if demand.mode.sign(j) > 0 { fold.b } else { -fold.b };
         }
         let reach = self.legs[j].closure.reach;
-        let least = if demand.crossing == Some(j) { 0.0 } else { demand.margins.serial };
+        let least = if demand.crossing == Some(LegIndex::new(j)) { 0.0 } else { demand.margins.serial };
         if least > 0.0 { reach - T::constant(least_reach(self.robot, j, least)) } else { reach }
     }
 

@@ -27,6 +27,7 @@ mod tests {
     use super::*;
     use crate::modal::closures;
     use crate::placement::Placement;
+    use aspecta_robot::LegIndex;
     use aspecta_robot::catalogue;
 
     fn names(constraints: impl IntoIterator<Item = Constraint>) -> String {
@@ -62,7 +63,7 @@ mod tests {
         let (mut all, regular) = (visited(true), visited(false));
         assert_eq!(names(regular.clone()), "H_1, H_2, H_3, det A");
         assert_eq!(all[..3], regular[..3]);
-        all.sort_by_key(|constraint| constraint.leg().unwrap_or(usize::MAX));
+        all.sort_by_key(|constraint| constraint.leg().map_or(usize::MAX, LegIndex::index));
         assert_eq!(names(all), names(Constraint::of(&robot)));
     }
 }

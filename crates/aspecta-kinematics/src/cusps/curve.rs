@@ -4,10 +4,9 @@ use super::equations::System;
 use super::{CuspError, Options, check, cusps};
 use crate::Kinematics;
 use crate::chart::Chart;
-use aspecta_robot::WorkingMode;
 use aspecta_robot::num::{Jet, without_turns};
 use aspecta_robot::work::{Control, Progress};
-use aspecta_robot::{Actuator, Platform, Robot, Window};
+use aspecta_robot::{Actuator, LegIndex, Platform, Robot, Window, WorkingMode};
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 use std::f64::consts::PI;
@@ -96,7 +95,7 @@ pub fn cusp_curves(
     let mut all = CuspCurves {
         robot: robot.name.clone(),
         length_unit: robot.length_unit.clone(),
-        joint: format!("q{}", joint + 1),
+        joint: format!("q{joint}"),
         slices,
         slices_complete: true,
         curves: Vec::new(),
@@ -128,11 +127,11 @@ pub fn cusp_curves(
 }
 
 /// The first joint with a range.
-fn joint_range(robot: &Robot) -> Option<(usize, (f64, f64))> {
+fn joint_range(robot: &Robot) -> Option<(LegIndex, (f64, f64))> {
     robot.legs.iter().enumerate().find_map(|(j, leg)| {
         let lengths = || leg.length_range().map(|(min, max)| (min.mid(), max.mid()));
         let range = if leg.actuator.is_angle() { Some((-PI, PI)) } else { lengths() };
-        range.map(|r| (j, r))
+        range.map(|r| (LegIndex::new(j), r))
     })
 }
 

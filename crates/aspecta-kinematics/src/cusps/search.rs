@@ -5,10 +5,10 @@ use super::equations::{Pivot, System, Values};
 use crate::chart::{Chart, Fold, cover};
 use crate::modal::closures;
 use crate::placement::Placement;
-use aspecta_robot::Window;
 use aspecta_robot::num::{Interval, Jet, Slope};
 use aspecta_robot::work;
 use aspecta_robot::work::{Control, Progress};
+use aspecta_robot::{LegIndex, Window};
 use nalgebra::SMatrix;
 
 /// A box of the chart's coordinates.
@@ -139,7 +139,7 @@ impl<const D: usize, const N: usize> Search<'_, D, N> {
         }
         let robot = self.system.robot;
         let legs = closures::<Interval, D, N>(robot, &Placement::at(robot.platform, region));
-        self.elsewhere.iter().any(|fold| cover(fold, &legs[fold.leg]).iter().all(|m| m.is_positive()))
+        self.elsewhere.iter().any(|fold| cover(fold, &legs[fold.leg.index()]).iter().all(|m| m.is_positive()))
     }
 
     /// Whether a box lies beyond the window.
@@ -260,10 +260,10 @@ impl<const D: usize, const N: usize> Search<'_, D, N> {
         let values = self.system.values(region, self.system.pivot(&region.map(Interval::mid)));
         let touched = |of: &[Interval; N]| of.iter().position(|f| !f.is_positive());
         if let Some(leg) = touched(&values.weights) {
-            return Doubt::FreeJoint { leg: leg + 1 };
+            return Doubt::FreeJoint { leg: LegIndex::new(leg) };
         }
         if let Some(leg) = touched(&values.closing) {
-            return Doubt::Serial { leg: leg + 1 };
+            return Doubt::Serial { leg: LegIndex::new(leg) };
         }
         let cofactors = self.system.cofactors(region);
         if cofactors.iter().flatten().all(|c| c.contains(0.0)) { Doubt::Rank } else { Doubt::Degenerate }

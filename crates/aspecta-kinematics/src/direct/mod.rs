@@ -36,7 +36,7 @@ use super::{KinematicsError, Solution, check_joints, for_platform};
 use crate::Kinematics;
 use arrayvec::ArrayVec;
 use aspecta_robot::num::Interval;
-use aspecta_robot::{Platform, Robot};
+use aspecta_robot::{LegIndex, Platform, Robot};
 use locked::{Locked, LockedLegs};
 use serde::Serialize;
 use std::cmp::Ordering;
@@ -181,7 +181,7 @@ fn locked(robot: &Robot, q: &[f64]) -> Result<LockedLegs, KinematicsError> {
     check_joints(robot, q)?;
     let locked = |(j, leg): (usize, &aspecta_robot::Leg)| {
         if leg.actuator.forbids(q[j]) {
-            return Err(KinematicsError::StrutLength { leg: j + 1, value: q[j] });
+            return Err(KinematicsError::StrutLength { leg: LegIndex::new(j), value: q[j] });
         }
         Ok(if robot.platform.space() == 2 {
             Locked::new::<2>(leg, q[j])

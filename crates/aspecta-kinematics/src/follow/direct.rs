@@ -6,8 +6,8 @@ use super::{Padded, between, check_numbers, in_stretches, unpadded};
 use crate::constraints::within_limits;
 use crate::path::units;
 use crate::{KinematicsError, WorkingMode, for_platform};
-use aspecta_robot::Robot;
 use aspecta_robot::num::padded;
+use aspecta_robot::{LegIndex, Robot};
 use nalgebra::SMatrix;
 
 /// Follows one direct solution: given the next joint vector, the pose on the same branch, certified. See [`super`] for the
@@ -87,7 +87,7 @@ impl Follower {
         crate::check_pose(robot, pose)?;
         crate::check_joints(robot, q)?;
         if let Some(j) = short_strut(robot, q) {
-            return Err(KinematicsError::StrutLength { leg: j + 1, value: q[j] }.into());
+            return Err(KinematicsError::StrutLength { leg: LegIndex::new(j), value: q[j] }.into());
         }
         let unit = units(robot);
         let state =
@@ -142,7 +142,7 @@ impl Follower {
 pub(super) fn check_joints(robot: &Robot, q: &[f64]) -> Result<(), BadInput> {
     check_numbers(robot, q)?;
     match short_strut(robot, q) {
-        Some(j) => Err(BadInput::StrutLength { leg: j + 1, value: q[j] }),
+        Some(j) => Err(BadInput::StrutLength { leg: LegIndex::new(j), value: q[j] }),
         None => Ok(()),
     }
 }

@@ -6,9 +6,9 @@ use crate::constraints::within_limits;
 use crate::modal::{ModalRows, closures};
 use crate::placement::Placement;
 use crate::{Kinematics, WorkingMode, for_platform};
-use aspecta_robot::Robot;
 use aspecta_robot::legs::Drive;
 use aspecta_robot::num::{Interval, Scalar, each, padded, without_turns};
+use aspecta_robot::{LegIndex, Robot};
 
 /// Follows the inverse solution of one working mode: given the next pose, the joint vector in the same mode, certified,
 /// with angles that go on past ±π without a jump. See [`super`] for the theorem.
@@ -67,7 +67,7 @@ impl InverseFollower {
             return Err(StartError::Mode { mode });
         }
         if let Some(j) = legs.iter().position(|leg| !leg.certified) {
-            return Err(StartError::OutOfReach { leg: j + 1 });
+            return Err(StartError::OutOfReach { leg: LegIndex::new(j) });
         }
         let mut q = [0.0; 6];
         for (j, leg) in legs.iter().enumerate() {
@@ -230,7 +230,7 @@ fn refusal<const D: usize, const N: usize>(
     let rate = (reach(proved + APART) - here) / APART;
     let singular_at = proved - here / rate;
     if singular_at >= proved && singular_at <= proved + 1.0 {
-        Refusal::Serial { leg: leg + 1, proved, singular_at, distance }
+        Refusal::Serial { leg: LegIndex::new(leg), proved, singular_at, distance }
     } else {
         Refusal::TooLong { proved, distance }
     }

@@ -1,6 +1,6 @@
 //! Why a step is refused, without allocating.
 
-use crate::KinematicsError;
+use crate::{KinematicsError, LegIndex};
 use aspecta_robot::num::{count, written};
 use serde::Serialize;
 
@@ -27,8 +27,8 @@ pub enum BadInput {
     /// A strut's length must be positive.
     #[error("joint coordinate {leg} is {}, but leg {leg} is a strut, whose length must be positive", written(*.value))]
     StrutLength {
-        /// Leg number, from 1.
-        leg: usize,
+        /// The leg.
+        leg: LegIndex,
         /// The value.
         value: f64,
     },
@@ -62,8 +62,8 @@ pub enum Refusal {
          singularity is estimated at {singular_at:.3} of it; distance left there {distance:.3e} (|B_jj| / max)"
     )]
     Serial {
-        /// Leg number, from 1.
-        leg: usize,
+        /// The leg.
+        leg: LegIndex,
         /// Up to where the step is proved, t.
         proved: f64,
         /// The t at which H_j extrapolates to zero.
@@ -100,8 +100,8 @@ pub enum StartError {
     /// The pose is out of reach in the mode.
     #[error("leg {leg} cannot close at the pose, or is in a serial singularity there")]
     OutOfReach {
-        /// Leg number, from 1.
-        leg: usize,
+        /// The leg.
+        leg: LegIndex,
     },
     /// The mode has another number of legs.
     #[error("working mode {mode} is not one of the robot's")]

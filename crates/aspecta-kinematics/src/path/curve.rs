@@ -3,8 +3,8 @@
 use crate::chart::{Chart, Coordinates};
 use crate::constraints::{Constraint, Constraints, Demand};
 use crate::for_platform;
-use aspecta_robot::Robot;
 use aspecta_robot::num::{Interval, Scalar, Slope};
+use aspecta_robot::{LegIndex, Robot};
 
 /// X(t), t ∈ [0, 1]: a polynomial of degree at most 3 in every pose coordinate; angles are real numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -172,7 +172,7 @@ fn along_in<const D: usize, const N: usize>(
             }
         }
     }
-    let at_end = |_: &usize| stretch::<D, N>(robot, chart, demand, curve, Interval::point(1.0));
+    let at_end = |_: &LegIndex| stretch::<D, N>(robot, chart, demand, curve, Interval::point(1.0));
     match (doubt, demand.crossing.as_ref().map(at_end)) {
         (Some((constraint, from, to)), _) => Along::Undecided { constraint, from, to },
         (None, Some(Stretch::Beyond)) => Along::Crossed { from: since.unwrap_or(0.0), to: 1.0 },
@@ -275,7 +275,7 @@ mod tests {
         let robot = five_bar();
         let mode: WorkingMode = "++".parse().unwrap();
         let towards = |end: [f64; 2], sign| {
-            let demand = Demand { crossing: Some(0), ..Demand::class(mode, sign) };
+            let demand = Demand { crossing: Some(LegIndex::new(0)), ..Demand::class(mode, sign) };
             along(&robot, &demand, &Curve::segment(&[5.8, 11.4], &end), 20_000)
         };
         let length = |t: f64, end: [f64; 2]| (5.8 + t * (end[0] - 5.8)).hypot(11.4 + t * (end[1] - 11.4));

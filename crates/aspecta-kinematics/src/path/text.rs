@@ -91,10 +91,10 @@ impl Obstacle {
         let what = match self.constraint.kind() {
             Kind::Parallel if self.asked == Asked::Margin => "|det Â| falls below its margin".to_owned(),
             Kind::Serial(j) if self.asked == Asked::Margin => {
-                format!("|B{0}{0}|/max falls below its margin", subscript(j + 1))
+                format!("|B{0}{0}|/max falls below its margin", subscript(j.number()))
             }
             Kind::Parallel => "det A vanishes or changes sign (parallel singularity)".to_owned(),
-            Kind::Serial(j) => format!("leg {} is stretched or folded (serial singularity)", j + 1),
+            Kind::Serial(j) => format!("leg {j} is stretched or folded (serial singularity)"),
             Kind::Limit => format!("beyond the {}", self.constraint.named(robot)),
         };
         if self.proved { what } else { format!("not excluded: {what}") }

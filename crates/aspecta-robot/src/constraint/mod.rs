@@ -7,18 +7,19 @@ mod scale;
 pub use named::{constraint, if_any};
 pub use scale::Scale;
 
-use crate::{LegSet, Limit, Robot};
+use crate::leg_index::as_index;
+use crate::{LegIndex, LegSet, Limit, Robot};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// One of the functions that bound an aspect. Legs, and the limits of a leg, count from 0 here and from 1
-/// where they are printed.
+/// One of the functions that bound an aspect. The limits of a leg count from 0 here and from 1 where they are
+/// printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Constraint {
     /// H_j of leg j.
-    Reach(usize),
+    Reach(#[serde(with = "as_index")] LegIndex),
     /// Limit k of leg j.
-    Limit(usize, usize),
+    Limit(#[serde(with = "as_index")] LegIndex, usize),
     /// det A.
     Det,
 }
@@ -27,7 +28,7 @@ pub enum Constraint {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A serial singularity of this leg.
-    Serial(usize),
+    Serial(LegIndex),
     /// A parallel singularity.
     Parallel,
     /// A configuration beyond a joint limit.
@@ -39,6 +40,7 @@ impl Constraint {
     /// legs, is the last.
     pub fn of(robot: &Robot) -> impl Iterator<Item = Self> {
         let of_leg = |(j, leg): (usize, &crate::Leg)| {
+            let j = LegIndex::new(j);
             let reach = (leg.actuator.postures() == 2).then_some(Self::Reach(j));
             reach.into_iter().chain((0..leg.limits.len()).map(move |k| Self::Limit(j, k)))
         };
@@ -69,7 +71,7 @@ impl Constraint {
     }
 
     /// The leg that it is about, if it is about one.
-    pub fn leg(self) -> Option<usize> {
+    pub fn leg(self) -> Option<LegIndex> {
         match self {
             Self::Reach(j) | Self::Limit(j, _) => Some(j),
             Self::Det => None,
@@ -79,8 +81,8 @@ impl Constraint {
     /// A number by which neighbours of one kind are told apart, in colours say.
     pub fn order(self) -> usize {
         match self {
-            Self::Reach(j) => j,
-            Self::Limit(j, k) => j + k,
+            Self::Reach(j) => j.index(),
+            Self::Limit(j, k) => j.index() + k,
             Self::Det => 0,
         }
     }
@@ -89,7 +91,10 @@ impl Constraint {
     pub fn is_of_drives(self, robot: &Robot) -> bool {
         match self {
             Self::Limit(j, k) => {
-                matches!(robot.legs[j].limits[k], Limit::ActuatorAngle { .. } | Limit::ActuatorLength { .. })
+                matches!(
+                    robot.legs[j.index()].limits[k],
+                    Limit::ActuatorAngle { .. } | Limit::ActuatorLength { .. }
+                )
             }
             Self::Reach(_) | Self::Det => false,
         }
@@ -98,7 +103,7 @@ impl Constraint {
     /// Returns its name, with the joint that it limits.
     pub fn named(self, robot: &Robot) -> String {
         match self {
-            Self::Limit(j, k) => format!("{} limit of leg {}", robot.legs[j].limits[k].joint(), j + 1),
+            Self::Limit(j, k) => format!("{} limit of leg {j}", robot.legs[j.index()].limits[k].joint()),
             Self::Reach(_) | Self::Det => self.to_string(),
         }
     }
@@ -108,8 +113,8 @@ impl Constraint {
 impl fmt::Display for Constraint {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Reach(j) => write!(f, "H_{}", j + 1),
-            Self::Limit(j, k) => write!(f, "joint limit {} of leg {}", k + 1, j + 1),
+            Self::Reach(j) => write!(f, "H_{j}"),
+            Self::Limit(j, k) => write!(f, "joint limit {} of leg {j}", k + 1),
             Self::Det => f.write_str("det A"),
         }
     }

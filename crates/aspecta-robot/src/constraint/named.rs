@@ -1,6 +1,7 @@
 //! Constraints as JSON names them, legs and limits counted from 1.
 
 use super::Constraint;
+use crate::LegIndex;
 use serde::{Serialize, Serializer};
 
 #[derive(Serialize)]
@@ -9,10 +10,10 @@ enum Named {
     #[serde(rename = "det A")]
     Det,
     Reach {
-        leg: usize,
+        leg: LegIndex,
     },
     Limit {
-        leg: usize,
+        leg: LegIndex,
         limit: usize,
     },
 }
@@ -21,8 +22,8 @@ impl From<Constraint> for Named {
     fn from(constraint: Constraint) -> Self {
         match constraint {
             Constraint::Det => Self::Det,
-            Constraint::Reach(leg) => Self::Reach { leg: leg + 1 },
-            Constraint::Limit(leg, limit) => Self::Limit { leg: leg + 1, limit: limit + 1 },
+            Constraint::Reach(leg) => Self::Reach { leg },
+            Constraint::Limit(leg, limit) => Self::Limit { leg, limit: limit + 1 },
         }
     }
 }

@@ -32,8 +32,8 @@ impl Index<Constraint> for Scale {
 
     fn index(&self, constraint: Constraint) -> &f64 {
         match constraint {
-            Constraint::Reach(j) => &self.reach[j],
-            Constraint::Limit(j, k) => &self.limits[j][k],
+            Constraint::Reach(j) => &self.reach[j.index()],
+            Constraint::Limit(j, k) => &self.limits[j.index()][k],
             Constraint::Det => &self.det,
         }
     }
@@ -42,8 +42,8 @@ impl Index<Constraint> for Scale {
 impl IndexMut<Constraint> for Scale {
     fn index_mut(&mut self, constraint: Constraint) -> &mut f64 {
         match constraint {
-            Constraint::Reach(j) => &mut self.reach[j],
-            Constraint::Limit(j, k) => &mut self.limits[j][k],
+            Constraint::Reach(j) => &mut self.reach[j.index()],
+            Constraint::Limit(j, k) => &mut self.limits[j.index()][k],
             Constraint::Det => &mut self.det,
         }
     }

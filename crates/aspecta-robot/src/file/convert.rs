@@ -51,7 +51,7 @@ fn misfit(file: &RobotFile, error: RobotError) -> Fault {
     let span = match &error {
         RobotError::LegCount { wanted, .. } => leg(*wanted).or(file.legs.last().map(|l| l.span.clone())),
         RobotError::Mismatch { leg, .. } => {
-            file.legs.get(leg - 1).map(|l| l.value.actuator.value.kind.span.clone())
+            file.legs.get(leg.index()).map(|l| l.value.actuator.value.kind.span.clone())
         }
     };
     Fault { span: span.unwrap_or(file.platform.span.clone()), problem: error.into() }

@@ -152,7 +152,10 @@ impl Certificate {
 }
 
 fn check_fold(robot: &Robot, fold: &Fold) -> Result<(), Part> {
-    let leg = robot.legs.get(fold.leg).ok_or(Part::Index { what: "leg of a fold", index: fold.leg })?;
+    let leg = robot
+        .legs
+        .get(fold.leg.index())
+        .ok_or(Part::Index { what: "leg of a fold", index: fold.leg.index() })?;
     holds(takes(&leg.actuator).elbow, "the leg of a fold has no crank")?;
     holds(
         matches!(robot.platform, Platform::PlanePoint | Platform::PlaneBody | Platform::TranslatingBody),
@@ -171,7 +174,10 @@ fn check_fold(robot: &Robot, fold: &Fold) -> Result<(), Part> {
 }
 
 fn check_chain(robot: &Robot, window: &Window, chain: &Chain, sheet: usize) -> Result<(), Part> {
-    let leg = robot.legs.get(chain.leg).ok_or(Part::Index { what: "leg of a chain", index: chain.leg })?;
+    let leg = robot
+        .legs
+        .get(chain.leg.index())
+        .ok_or(Part::Index { what: "leg of a chain", index: chain.leg.index() })?;
     holds(
         robot.platform == Platform::TurningBody && takes(&leg.actuator).on_sphere,
         "a chain is that of a platform that does not turn about a point, or of a leg that is not spherical",

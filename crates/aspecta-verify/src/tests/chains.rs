@@ -1,6 +1,7 @@
 //! Certificates with sheets of folds, of chains and of their bends.
 
 use super::*;
+use aspecta_robot::LegIndex;
 use aspecta_robot::chart::{Bend, Chain};
 
 /// Returns one mode of a platform that turns about a point.
@@ -33,7 +34,9 @@ fn chains_are_checked() {
     assert_eq!(SPHERE.claims, [Claim { low: 2, high: Some(2) }; 2]);
     refuted(&SPHERE, "sheet 1", |c| leaf(c, 1, |leaf| leaf.inside & 3 == 2).inside ^= 3);
     refuted(&SPHERE, "sheet 1", |c| leaf(c, 1, |leaf| leaf.inside & 1 != 0).inside &= !1);
-    refuted(&SPHERE, "claimed", |c| c.sheets[1].chart = Chart::Chain(Chain { leg: 1, bend: None }));
+    refuted(&SPHERE, "claimed", |c| {
+        c.sheets[1].chart = Chart::Chain(Chain { leg: LegIndex::new(1), bend: None })
+    });
     refuted(&SPHERE, "claimed covered, but", |c| c.sheets.truncate(1));
     refuted(&SPHERE, "claimed summitless, but P may have a maximum here", |c| {
         deny_summits(c, 1, !0);
@@ -155,7 +158,7 @@ fn a_chain_needs_all_orientations() {
     let error = Certificate::from_json(cut.to_json().unwrap().as_bytes()).unwrap_err();
     assert!(error.to_string().contains("a chain holds all orientations"), "{error}");
     let mut legless = SPHERE.clone();
-    legless.sheets[1].chart = Chart::Chain(Chain { leg: 3, bend: None });
+    legless.sheets[1].chart = Chart::Chain(Chain { leg: LegIndex::new(3), bend: None });
     let error = Certificate::from_json(legless.to_json().unwrap().as_bytes()).unwrap_err();
     assert!(error.to_string().contains("leg of a chain 3"), "{error}");
 }

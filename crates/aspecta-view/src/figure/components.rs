@@ -14,6 +14,7 @@ use super::survey::joint_axis;
 use aspecta::domain::boundary::Simplex;
 use aspecta::domain::{OUTSIDE, Sheet};
 use aspecta::num::without_turns;
+use aspecta::robot::LegIndex;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
@@ -59,16 +60,16 @@ pub struct Section {
 }
 
 impl<'a> JointSpace<'a> {
-    /// The joint space of an aspect; `None` for one of a slice. `held` is the joint to hold, from 0, if there
-    /// are three.
-    pub fn new(cut: &'a Cut<'a>, held: usize) -> Option<Self> {
+    /// The joint space of an aspect; `None` for one of a slice. `held` is the joint to hold, by its leg,
+    /// if there are three.
+    pub fn new(cut: &'a Cut<'a>, held: LegIndex) -> Option<Self> {
         let Cut { map, domains, boundary, .. } = *cut;
         let robot = &map.robot;
         if map.window.held().next().is_some() {
             return None;
         }
         let sheet = map.sheet(domains.aspect)?;
-        let joints = match (robot.dof(), held) {
+        let joints = match (robot.dof(), held.index()) {
             (2, _) => [0, 1, 2],
             (_, held) => [usize::from(held == 0), 2 - usize::from(held == 2), held],
         };

@@ -3,9 +3,9 @@
 use super::palette::{self, INK};
 use super::robot::signs;
 use super::svg::{Anchor, Svg};
-use aspecta::aspect::DetSign;
+use aspecta::aspect::{AspectId, DetSign};
 use aspecta::motion::modes::{GraphAspect, ModeGraph};
-use aspecta::robot::Robot;
+use aspecta::robot::{LegIndex, Robot};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Radius of a node, pixels.
@@ -39,7 +39,7 @@ fn draw_ring(svg: &mut Svg, graph: &ModeGraph, ring: &[&GraphAspect], centre: [f
         let angle = TAU * k as f64 / ring.len().max(1) as f64 - FRAC_PI_2;
         [centre[0] + radius * angle.cos(), centre[1] + radius * angle.sin()]
     };
-    let place = |id: usize| ring.iter().position(|aspect| aspect.id == id).map(at);
+    let place = |id: AspectId| ring.iter().position(|aspect| aspect.id == id).map(at);
     for crossing in &graph.crossings {
         if let [Some(a), Some(b)] = crossing.aspects.map(place) {
             svg.line(a, b, &style(crossing.leg));
@@ -55,14 +55,15 @@ fn draw_ring(svg: &mut Svg, graph: &ModeGraph, ring: &[&GraphAspect], centre: [f
 }
 
 /// The line of a leg's crossings.
-fn style(leg: usize) -> String {
-    let dash = DASHES[(leg - 1) % DASHES.len()];
+fn style(leg: LegIndex) -> String {
+    let dash = DASHES[leg.index() % DASHES.len()];
     let dash = if dash.is_empty() { String::new() } else { format!(";stroke-dasharray:{dash}") };
     format!("fill:none;stroke:{INK};stroke-width:1.6{dash}")
 }
 
 fn legend(svg: &mut Svg, robot: &Robot, graph: &ModeGraph, at: [f64; 2]) {
-    let legs = (1..=robot.dof()).filter(|&leg| graph.crossings.iter().any(|c| c.leg == leg));
+    let legs = (0..robot.dof()).map(LegIndex::new);
+    let legs = legs.filter(|leg| graph.crossings.iter().any(|c| c.leg == *leg));
     let mut x = at[0];
     for leg in legs {
         svg.line([x, at[1] - 4.0], [x + 30.0, at[1] - 4.0], &style(leg));

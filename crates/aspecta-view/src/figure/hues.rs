@@ -1,7 +1,7 @@
 //! Which regions have one hue: those whose images meet.
 
 use super::palette::{self, SINGLE};
-use aspecta::domain::Domains;
+use aspecta::domain::{Domains, RegionId};
 
 /// The regions of an aspect sorted by their images. Regions count from 0 here.
 #[derive(Clone, Debug)]
@@ -17,7 +17,8 @@ impl Hues {
     pub fn new(domains: &Domains) -> Self {
         let mut group: Vec<usize> = (0..domains.regions.len()).collect();
         for found in &domains.coincidences {
-            let (a, b) = (group[found.regions.0 - 1], group[found.regions.1 - 1]);
+            let of = |region: RegionId| group[region.number() - 1];
+            let (a, b) = (of(found.regions.0), of(found.regions.1));
             group.iter_mut().filter(|g| **g == a.max(b)).for_each(|g| *g = a.min(b));
         }
         let mut groups: Vec<usize> = Vec::new();
@@ -56,6 +57,6 @@ impl Hues {
 
     /// The colour of the images of a group.
     pub fn image(&self, group: usize) -> &'static str {
-        if self.hue[group] == 0 { SINGLE } else { palette::aspect(self.hue[group]) }
+        if self.hue[group] == 0 { SINGLE } else { palette::hue(self.hue[group]) }
     }
 }

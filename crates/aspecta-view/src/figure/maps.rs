@@ -9,7 +9,7 @@ use super::raster::{Label, Raster};
 use super::robot::signs;
 use super::survey::{Lines, Survey};
 use super::svg::{Anchor, Number, Svg};
-use aspecta::aspect::{Aspect, DetSign};
+use aspecta::aspect::{Aspect, AspectId, DetSign};
 use aspecta::kinematics::WorkingMode;
 use std::f64::consts::TAU;
 use std::fmt::{Display, Write};
@@ -39,7 +39,7 @@ pub fn figure_9(survey: &Survey<'_>) -> String {
             class_panels(&mut svg, survey, mode, sign, &layout.charts(2 * k + c));
         }
     }
-    legend(&mut svg, survey, 1, [LEFT, size.1 - 12.0]);
+    legend(&mut svg, survey, AspectId::new(1), [LEFT, size.1 - 12.0]);
     svg.finish()
 }
 
@@ -51,7 +51,7 @@ pub fn class(survey: &Survey<'_>, mode: WorkingMode, sign: DetSign) -> String {
     let mut svg = open(&class_name(survey, mode, sign), size, &title, survey);
     class_panels(&mut svg, survey, mode, sign, &layout.charts(0));
     let first = survey.of(mode, sign).and_then(|(map, _)| map.class.aspects.first());
-    legend(&mut svg, survey, first.map_or(1, |a| a.id), [LEFT, size.1 - 12.0]);
+    legend(&mut svg, survey, first.map_or(AspectId::new(1), |a| a.id), [LEFT, size.1 - 12.0]);
     svg.finish()
 }
 
@@ -253,8 +253,8 @@ pub(super) fn number(svg: &mut Svg, chart: &Chart, aspects: &[Aspect], at: impl 
     }
 }
 
-/// The legend; `shown` is the number of an aspect in the figure.
-fn legend(svg: &mut Svg, survey: &Survey<'_>, shown: usize, at: [f64; 2]) {
+/// The legend; `shown` is an aspect in the figure.
+fn legend(svg: &mut Svg, survey: &Survey<'_>, shown: AspectId, at: [f64; 2]) {
     let limits = survey.curves.iter().any(|c| c.w.iter().any(|l| l.0 == Kind::Limit));
     let mut x = swatch(svg, at, palette::aspect(shown), "aspect, numbered at a sample");
     x = swatch(svg, [x, at[1]], UNDECIDED, "undecided cells");

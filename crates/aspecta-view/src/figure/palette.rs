@@ -1,5 +1,6 @@
 //! Colours that colour-blind readers can tell apart.
 
+use aspecta::aspect::AspectId;
 use aspecta::domain::boundary::Face;
 use aspecta::kinematics::constraints::Kind;
 
@@ -27,9 +28,14 @@ pub(super) const CHARACTERISTIC: &str = "fill:none;stroke:#222;stroke-width:0.6;
 /// Curves and axes.
 pub const INK: &str = "#222";
 
-/// The colour of the aspect with this number (from 1): neighbours in number differ.
-pub fn aspect(id: usize) -> &'static str {
-    ASPECTS[id.saturating_sub(1) % ASPECTS.len()]
+/// The colour of an aspect: neighbours in number differ.
+pub fn aspect(id: AspectId) -> &'static str {
+    hue(id.number())
+}
+
+/// The hue with this number, from 1: neighbours differ.
+pub fn hue(number: usize) -> &'static str {
+    ASPECTS[number.saturating_sub(1) % ASPECTS.len()]
 }
 
 /// A sequence from light to dark for small counts, 1 upward (Tol's *YlOrBr*, and a step beyond).
@@ -40,12 +46,12 @@ pub fn count(n: usize) -> &'static str {
 }
 
 /// Shade `k` of `of` (from 0, dark to light) of the hue with this number (from 1).
-pub fn shade(hue: usize, k: usize, of: usize) -> String {
+pub fn shade(number: usize, k: usize, of: usize) -> String {
     let at = if of < 2 { 0.0 } else { k as f64 / (of - 1) as f64 };
     // From a quarter black to two thirds white.
     let (towards, share) =
         if of < 2 || at > 0.25 { (255.0, (at - 0.25).max(0.0) / 0.75 * 0.67) } else { (0.0, 0.25 - at) };
-    let [r, g, b] = channels(aspect(hue)).map(|c| {
+    let [r, g, b] = channels(hue(number)).map(|c| {
         let value = f64::from(c);
         (value + share * (towards - value)).round() as u8
     });
@@ -65,7 +71,7 @@ pub fn face(face: Face) -> &'static str {
     match face {
         Face::Of(constraint) => match constraint.kind() {
             Kind::Parallel => "#d55e00",
-            Kind::Serial(leg) => SERIAL[leg % SERIAL.len()],
+            Kind::Serial(leg) => SERIAL[leg.index() % SERIAL.len()],
             Kind::Limit => LIMITS[constraint.order() % LIMITS.len()],
         },
         Face::Cut { .. } => UNDECIDED,

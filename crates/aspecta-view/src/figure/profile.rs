@@ -132,9 +132,9 @@ pub(crate) fn curves(robot: &Robot) -> Vec<Curve> {
     };
     let leg = |j: usize| Curve {
         name: format!("B{0}{0}", subscript(j + 1)),
-        colour: palette::aspect(j + 1),
+        colour: palette::hue(j + 1),
         style: style(
-            palette::aspect(j + 1),
+            palette::hue(j + 1),
             &format!("stroke-width:1.8;stroke-dasharray:{}", DASHES[j % DASHES.len()]),
         ),
         value: Box::new(move |p| p.relative_b[j]),

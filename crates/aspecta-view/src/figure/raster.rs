@@ -1,5 +1,6 @@
 //! Labels on a regular lattice, and their outlines as compact SVG paths.
 
+use aspecta::aspect::AspectId;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -10,8 +11,8 @@ pub enum Label {
     Outside,
     /// Not decided at this resolution.
     Undecided,
-    /// In the aspect with this number.
-    Aspect(usize),
+    /// In this aspect.
+    Aspect(AspectId),
 }
 
 /// A columns × rows lattice of labels; the first row is the lowest.

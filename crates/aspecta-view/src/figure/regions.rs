@@ -16,7 +16,7 @@ use super::slices::{Panels, place};
 use super::survey::pose_axis;
 use super::svg::{Anchor, Svg};
 use crate::words::{measure_unit, number as number_text};
-use aspecta::domain::{BasicRegion, Domains, Map, OUTSIDE};
+use aspecta::domain::{BasicRegion, Domains, Map, OUTSIDE, RegionId};
 
 /// Most slices in a figure, and how many are in a row.
 pub(super) const SLICES: usize = 12;
@@ -51,7 +51,7 @@ pub fn uniqueness(cut: &Cut<'_>) -> String {
             PALE.clone_into(colour);
         }
     }
-    sheet(cut, "uniqueness", "Largest uniqueness domain", &colours, &|number| largest.contains(&number))
+    sheet(cut, "uniqueness", "Largest uniqueness domain", &colours, &|region| largest.contains(&region))
 }
 
 /// A colour for each region.
@@ -65,7 +65,7 @@ fn sheet(
     name: &str,
     title: &str,
     colours: &[String],
-    is_shown: &dyn Fn(usize) -> bool,
+    is_shown: &dyn Fn(RegionId) -> bool,
 ) -> String {
     let Cut { map: Map { robot, window, .. }, domains, .. } = cut;
     let grid = &domains.labels.grid;
@@ -117,7 +117,7 @@ fn sheet(
         draw_surfaces(&mut svg, &chart, &boundary, plane, &inner);
         number(&mut svg, &chart, &raster, |label| {
             let number = label as usize + 1;
-            (number <= domains.regions.len() && is_shown(number)).then(|| number.to_string())
+            (number <= domains.regions.len() && is_shown(RegionId::new(number))).then(|| number.to_string())
         });
         chart.frame(&mut svg, &at.map_or(String::new(), |at| place(robot, third, at)));
     }
@@ -193,14 +193,14 @@ pub(super) fn number(
 pub(super) fn entries(
     cut: &Cut<'_>,
     colours: &[String],
-    is_shown: &dyn Fn(usize) -> bool,
+    is_shown: &dyn Fn(RegionId) -> bool,
 ) -> Vec<(String, String)> {
     let unit = measure_unit(&cut.domains.unit);
     let shown = cut.domains.regions.iter().filter(|region| is_shown(region.number));
     let entry = |region: &BasicRegion| {
         let measure = number_text(region.measure);
         let text = format!("{}: n = {}, {measure} {unit}", region.number, region.solutions);
-        (colours[region.number - 1].clone(), text)
+        (colours[region.number.number() - 1].clone(), text)
     };
     shown.map(entry).collect()
 }

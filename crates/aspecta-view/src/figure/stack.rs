@@ -30,12 +30,14 @@ const VERTICAL: &str = "stroke:#222;stroke-width:0.9;stroke-dasharray:2 2.5";
 /// The sheet of each region, from 0.
 fn sheets(domains: &Domains) -> Vec<usize> {
     let first = domains.uniqueness.first().map_or(&[][..], |domain| &domain.regions);
-    let numbers = 1..=domains.regions.len();
-    let mut sheet: Vec<Option<usize>> = numbers.map(|number| first.contains(&number).then_some(0)).collect();
+    let number = |region: usize| domains.regions[region].number;
+    let regions = 0..domains.regions.len();
+    let mut sheet: Vec<Option<usize>> =
+        regions.map(|region| first.contains(&number(region)).then_some(0)).collect();
     for region in 0..sheet.len() {
         let taken = |level: usize| {
             let on_it = |other: &usize| sheet[*other] == Some(level) && *other != region;
-            (0..sheet.len()).filter(on_it).any(|other| domains.coincide(region + 1, other + 1))
+            (0..sheet.len()).filter(on_it).any(|other| domains.coincide(number(region), number(other)))
         };
         let free = sheet[region].unwrap_or_else(|| (0..).find(|&level| !taken(level)).unwrap_or(0));
         sheet[region] = Some(free);
@@ -67,7 +69,7 @@ pub fn stack(space: &JointSpace<'_>) -> String {
     };
     let legend = Legend {
         cut: space.cut,
-        entries: entries(space.cut, &stack.colours, &|number| shown.contains(&(number - 1))),
+        entries: entries(space.cut, &stack.colours, &|region| shown.contains(&(region.number() - 1))),
         entry: ENTRY,
         notes: thin(domains).into_iter().collect(),
         caption: "n: direct solutions in the aspect, as many as sheets; sheet 1 holds the largest uniqueness domain",

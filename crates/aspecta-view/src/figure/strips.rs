@@ -6,7 +6,7 @@ use super::palette::{self, UNDECIDED};
 use super::robot::signs;
 use super::survey::{pose_axis, slice_name};
 use super::svg::{Anchor, Svg};
-use aspecta::aspect::{Analysis, AspectClass, Cell};
+use aspecta::aspect::{Analysis, AspectClass, AspectId, Cell};
 
 /// Pixels left of the strips, for their names, and above them.
 const LEFT: f64 = 132.0;
@@ -35,7 +35,8 @@ pub fn strips(analysis: &Analysis, cells: &[Vec<Cell>]) -> String {
     }
     chart.frame_across(&mut svg, &slice);
     let below = TOP + height + 60.0;
-    let x = swatch(&mut svg, [LEFT, below], palette::aspect(1), "aspect, numbered at a sample");
+    let x =
+        swatch(&mut svg, [LEFT, below], palette::aspect(AspectId::new(1)), "aspect, numbered at a sample");
     swatch(&mut svg, [x, below], UNDECIDED, "undecided cells");
     svg.finish()
 }

@@ -159,7 +159,7 @@ pub fn name(face: Face) -> String {
     match face {
         Face::Of(constraint) => match constraint.kind() {
             Kind::Parallel => format!("{constraint} = 0"),
-            Kind::Serial(leg) => format!("det B = 0, leg {}", leg + 1),
+            Kind::Serial(leg) => format!("det B = 0, leg {leg}"),
             Kind::Limit => constraint.to_string(),
         },
         Face::Cut { coordinate, upper } => {

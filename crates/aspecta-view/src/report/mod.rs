@@ -8,7 +8,7 @@ mod volume;
 
 use crate::figure::{self, maps, slices, strips, survey::Survey};
 use crate::file::put;
-use aspecta::aspect::{Analysis, AspectClass, Cell, Sample};
+use aspecta::aspect::{Analysis, AspectClass, Cell, ClassId, Sample};
 use rayon::prelude::*;
 use std::fs;
 use std::io;
@@ -45,7 +45,8 @@ struct FlatFigures {
 /// # Errors
 /// Those of the file system.
 pub fn write(analysis: &Analysis, dir: &Path) -> io::Result<Vec<PathBuf>> {
-    let cells: Vec<Vec<Cell>> = (0..analysis.classes.len()).map(|k| analysis.cells(k)).collect();
+    let cells: Vec<Vec<Cell>> =
+        (0..analysis.classes.len()).map(|k| analysis.cells(ClassId::new(k))).collect();
     let figures = draw(analysis, &cells);
     let volume = if analysis.window.axes().len() == 3 { Some(volume::json(analysis, &cells)?) } else { None };
     let folder = dir.join("figures");

@@ -3,7 +3,7 @@
 use crate::figure::palette;
 use crate::figure::raster::pixels;
 use crate::figure::survey::coordinate_name;
-use aspecta::aspect::{Analysis, Cell, DetSign};
+use aspecta::aspect::{Analysis, AspectId, Cell, DetSign};
 use aspecta::kinematics::WorkingMode;
 use base64::prelude::{BASE64_STANDARD, Engine};
 use serde::Serialize;
@@ -37,7 +37,7 @@ struct VolumeClass {
 
 #[derive(Serialize)]
 struct VolumeAspect {
-    id: usize,
+    id: AspectId,
     colour: &'static str,
 }
 
@@ -53,7 +53,7 @@ pub fn json(analysis: &Analysis, cells: &[Vec<Cell>]) -> std::io::Result<String>
     let size = std::array::from_fn(|a| super::side(analysis, free[a]).min(VOXELS));
     let ranges: [_; 3] = std::array::from_fn(|a| analysis.window.ranges[free[a]]);
     let classes = analysis.classes.iter().zip(cells).map(|(class, cells)| {
-        let local = |id: usize| class.aspects.iter().position(|a| a.id == id).map_or(1, |k| k + 2);
+        let local = |id: AspectId| class.aspects.iter().position(|a| a.id == id).map_or(1, |k| k + 2);
         VolumeClass {
             mode: class.mode,
             det_a: class.det_a,
@@ -79,7 +79,7 @@ fn voxels(
     cells: &[Cell],
     ranges: &[(f64, f64)],
     size: [usize; 3],
-    local: impl Fn(usize) -> usize,
+    local: impl Fn(AspectId) -> usize,
 ) -> Vec<u32> {
     let mut labels = vec![0; size.iter().product()];
     let inner = cells.iter().filter(|c| c.aspect.is_some());

@@ -2,7 +2,7 @@
 
 use crate::common::{analysis, five_bar, three_rrr};
 use aspecta::Kinematics;
-use aspecta::aspect::{Cell, DetSign, ModeReport, Reachable};
+use aspecta::aspect::{AspectId, Cell, ClassId, DetSign, ModeReport, Reachable};
 use aspecta::robot::Robot;
 use aspecta_view::figure::axes::Axis;
 use aspecta_view::figure::barrier::{Barriers, Kind};
@@ -108,14 +108,15 @@ fn images_wrap_round() {
                 && (0..2).any(|k| (b.q[k] - next.q[k]).abs() > PI)
         })
         .unwrap();
-    let cell = Cell { lo: [pose[0] - 0.1, 3.9, 0.0], hi: [pose[0] + 0.1, 4.1, 0.0], aspect: Some(1) };
+    let cell =
+        Cell { lo: [pose[0] - 0.1, 3.9, 0.0], hi: [pose[0] + 0.1, 4.1, 0.0], aspect: Some(AspectId::new(1)) };
     let plane = Plane { through: PLANE.to_vec(), axes: [0, 1] };
     let sheet = Sheet { robot: &robot, mode, plane: &plane };
     let axis = Axis { label: String::new(), range: (-PI, PI), angle: true };
     let raster = image::image(&sheet, DetSign::Positive, &[cell], &[axis.clone(), axis], 200);
     let drawn: Vec<(usize, usize)> = (0..40_000)
         .map(|k| (k % 200, k / 200))
-        .filter(|&(c, r)| raster.at(c, r) == Label::Aspect(1))
+        .filter(|&(c, r)| raster.at(c, r) == Label::Aspect(AspectId::new(1)))
         .collect();
     let line = |axis: usize| drawn.iter().map(move |p| if axis == 0 { p.0 } else { p.1 });
     let wraps = |axis: usize| {
@@ -130,7 +131,7 @@ fn images_wrap_round() {
 fn maps_agree_with_the_analysis() {
     let robot = five_bar();
     let analysis = analysis(&robot, 7);
-    let cells: Vec<_> = (0..analysis.classes.len()).map(|k| analysis.cells(k)).collect();
+    let cells: Vec<_> = (0..analysis.classes.len()).map(|k| analysis.cells(ClassId::new(k))).collect();
     let survey = survey::Survey::new(&analysis, &cells, 128);
     for (map, cells) in survey.classes.iter().zip(&cells) {
         for cell in cells.iter().filter(|c| c.aspect.is_some()) {

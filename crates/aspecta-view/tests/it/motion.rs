@@ -3,7 +3,7 @@
 //! With `ASPECTA_FIGURES=DIR` the pages stay in DIR to look at.
 
 use crate::common::{analysis, five_bar, three_rrr};
-use aspecta::aspect::Analysis;
+use aspecta::aspect::{Analysis, AspectId, ClassId};
 use aspecta::kinematics::WorkingMode;
 use aspecta::motion::{PathCheck, ProfilePoint, check_path};
 use aspecta::robot::{Robot, catalogue};
@@ -202,9 +202,9 @@ fn sections(page: &Page) -> (Vec<i64>, Vec<String>) {
     (page.tracks[track].clone(), groups.iter().map(|g| svg[g.range()].to_owned()).collect())
 }
 
-fn the_aspect_of(analysis: &Analysis, pose: &[f64], text: &str) -> usize {
+fn the_aspect_of(analysis: &Analysis, pose: &[f64], text: &str) -> AspectId {
     let classes = (0..analysis.classes.len()).filter(|&k| analysis.classes[k].mode == mode(text));
-    classes.filter_map(|k| analysis.aspect_at(k, pose)).next().unwrap()
+    classes.filter_map(|k| analysis.aspect_at(pose, ClassId::new(k))).next().unwrap()
 }
 
 /// In the plane the whole aspect is seen, in its colour, and the dot is at the pose.

@@ -3,7 +3,8 @@
 //! With `ASPECTA_FIGURES=DIR` the reports stay in DIR to look at.
 
 use crate::common::{analysis, five_bar, slice, three_rrr};
-use aspecta::aspect::{Analysis, Cell, Place};
+use aspecta::aspect::{Analysis, Cell, ClassId, Place};
+use aspecta::robot::LegIndex;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -90,7 +91,7 @@ fn doubts() {
 fn doubts_about_folded_legs() {
     let mut analysis = analysis(&three_rrr(), 5);
     let doubt = &mut analysis.doubts[0];
-    (doubt.fold, doubt.measure) = (Some(2), 1e9);
+    (doubt.fold, doubt.measure) = (Some(LegIndex::new(1)), 1e9);
     doubt.place = vec![(0.5, 0.75), (-0.125, 0.125), (1.0, 1.5)];
     let (dir, _keep) = directory("3-rrr-5");
     let page = checked(&analysis, &dir, &["counts"], 15_000_000).replace('\u{a0}', " ");
@@ -119,14 +120,14 @@ fn the_three_rrr() {
 fn what_is_undecided_is_not_white() {
     let analysis = analysis(&three_rrr(), 6);
     let mut of_folds = 0;
-    for class in 0..analysis.classes.len() {
+    for class in (0..analysis.classes.len()).map(ClassId::new) {
         let drawn = analysis.cells(class);
         // About the poses with C1 on A1, where the first leg folds.
         for k in 0..500 {
             let [i, j, l] = [k % 8, k / 8 % 8, k / 64].map(f64::from);
             let pose = [0.601 * i - 12.0, 0.607 * j - 12.0, 0.31 * l - 1.2];
             let holds = |c: &Cell| (0..3).all(|a| c.lo[a] <= pose[a] && pose[a] < c.hi[a]);
-            let place = analysis.locate(class, &pose);
+            let place = analysis.locate(&pose, class);
             assert_eq!(drawn.iter().any(holds), place != Place::Outside, "{pose:?}");
             let (leaf, _) = analysis.pavings[0].descend_to(&pose, &mut |_| false).unwrap();
             of_folds +=

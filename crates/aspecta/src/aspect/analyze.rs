@@ -1,5 +1,6 @@
 //! The main job: a robot in, its working modes and generalized aspects out.
 
+use super::AspectId;
 use super::ascent::Class;
 use super::atlas::{Atlas, Leaf};
 use super::certify::certificate;
@@ -19,7 +20,7 @@ use aspecta_kinematics::chart::uncharted_folds;
 use aspecta_kinematics::parallel_rods::parallel_rods;
 use aspecta_kinematics::{Kinematics, WorkingMode, seems_architecturally_singular};
 use aspecta_robot::work::Stopwatch;
-use aspecta_robot::{Leg, Robot, Window, work};
+use aspecta_robot::{Leg, LegIndex, Robot, Window, work};
 use aspecta_verify::certificate::Certificate;
 use std::collections::BTreeSet;
 
@@ -90,7 +91,7 @@ fn analyze_here(robot: &Robot, options: &Options, control: &Control<'_>) -> Resu
     }
     let modes = if options.modes.is_empty() { &all_modes } else { &options.modes };
     let parallel_rods = parallel_rods(robot, &window);
-    let uncharted_folds: Vec<usize> = uncharted_folds(robot, &window).iter().map(|j| j + 1).collect();
+    let uncharted_folds = uncharted_folds(robot, &window);
     let architecturally_singular = seems_architecturally_singular(robot);
     let hopeful = parallel_rods.is_empty() && uncharted_folds.is_empty() && !architecturally_singular;
     let budget = bounded(options.budget, hopeful);
@@ -254,7 +255,7 @@ fn aspect(atlas: &Atlas<'_>, class: Class, components: &Components, group: &Grou
     let pose = centre(atlas.robot, &atlas.sheets, largest.unwrap_or(pieces[0].largest));
     let q = atlas.robot.inverse_in(&pose, class.mode).ok().flatten().unwrap_or_default();
     Aspect {
-        id: 0,
+        id: AspectId::new(0),
         measure: pieces.iter().map(|p| p.measure).sum(),
         pieces: group.summits,
         sample: Sample { pose, q },
@@ -271,7 +272,7 @@ fn number(found: Vec<Found>) -> (Vec<AspectClass>, Vec<Vec<(u32, u32)>>) {
     for Found { mut class, labels: mut of_class } in found {
         let first = next as u32;
         for aspect in &mut class.aspects {
-            aspect.id = next;
+            aspect.id = AspectId::new(next);
             next += 1;
         }
         of_class.iter_mut().filter(|l| l.1 > 0).for_each(|l| l.1 += first - 1);
@@ -309,7 +310,7 @@ fn mode_report(robot: &Robot, paving: &Paving, m: usize, mode: WorkingMode) -> M
 /// cuspidal (and each has at most two postures).
 fn leg_reports(robot: &Robot) -> Vec<LegReport> {
     let report = |(k, leg): (usize, &Leg)| LegReport {
-        leg: k + 1,
+        leg: LegIndex::new(k),
         actuator: leg.actuator.kind().name(),
         postures: leg.actuator.postures(),
         cuspidal: false,

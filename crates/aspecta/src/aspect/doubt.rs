@@ -30,7 +30,7 @@ fn doubt(atlas: &Atlas<'_>, class: Class, kind: DoubtKind, boxes: &[Leaf]) -> Op
     let undecided = for_platform!(atlas.robot.platform, undecided(atlas, class, sheet, &extent));
     let (place, fold) = match &paving.chart {
         Chart::Pose => (extent, None),
-        Chart::Fold(fold) => (extent, Some(fold.leg + 1)),
+        Chart::Fold(fold) => (extent, Some(fold.leg)),
         Chart::Chain(_) => (poses_within(atlas, (sheet, node)), None),
     };
     let in_poses = boxes.iter().filter(|leaf| leaf.0 == 0);

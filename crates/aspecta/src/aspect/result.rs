@@ -2,10 +2,11 @@
 
 use super::ascent::{Class, ascend};
 use super::measure::{Held, Measure};
+use super::{AspectId, ClassId};
 use crate::paving::{BoxOf, ClassSet, MODES, Paving, Stop};
 use aspecta_kinematics::parallel_rods::ParallelRods;
 use aspecta_kinematics::{WorkingMode, for_platform};
-use aspecta_robot::{Robot, Window};
+use aspecta_robot::{LegIndex, Robot, Window};
 use aspecta_verify::certificate::Certificate;
 use serde::{Deserialize, Serialize};
 
@@ -44,10 +45,10 @@ pub struct Analysis {
     pub architecturally_singular: bool,
     /// Surfaces on which det A vanishes to higher order: a reason for doubts that no refinement removes.
     pub parallel_rods: Vec<ParallelRods>,
-    /// The legs (from 1), of a platform that turns about a point, that can fold two at once: the platform's
+    /// The legs, of a platform that turns about a point, that can fold two at once: the platform's
     /// joint then lies on the motor's axis, the motor's angle is free, and the bounds may stay apart near
     /// such orientations.
-    pub uncharted_folds: Vec<usize>,
+    pub uncharted_folds: Vec<LegIndex>,
     /// Definition 5 applied to this robot: what figures 6 and 7 show. Two entries, det A > 0 and < 0.
     pub parallel_aspects: Vec<EarlierAspects>,
     /// Definition 6 applied to this robot: domains of constant sign of the B_jj, one entry a mode.
@@ -70,8 +71,8 @@ pub struct Analysis {
 /// The place of a pose with respect to one class.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
-    /// In the aspect with this [`Aspect::id`] (certified).
-    Inside(usize),
+    /// In this aspect (certified).
+    Inside(AspectId),
     /// In a cell where membership is undecided.
     Undecided,
     /// In none of the class's aspects (certified).
@@ -79,24 +80,30 @@ pub enum Place {
 }
 
 impl Analysis {
-    /// The cells of class `class` (index into [`Analysis::classes`]) that are not outside it.
-    pub fn cells(&self, class: usize) -> Vec<Cell> {
-        let (paving, _) = self.paving_of(class);
+    /// The cells of a class that are not outside it; none of a class that there is not.
+    pub fn cells(&self, class: ClassId) -> Vec<Cell> {
+        let Some((paving, _)) = self.paving_of(class) else { return Vec::new() };
         let cell = |&(node, id): &(u32, u32)| {
             let (lo, hi): BoxOf = paving.bounds(node);
-            Cell { lo, hi, aspect: (id > 0).then_some(id as usize) }
+            Cell { lo, hi, aspect: labelled(id) }
         };
-        self.labels[class].iter().map(cell).collect()
+        self.labels[class.index()].iter().map(cell).collect()
     }
 
-    /// The paving that decides class `class` (index into [`Analysis::classes`]), and the class's bit in it.
-    pub fn paving_of(&self, class: usize) -> (&Paving, ClassSet) {
-        (&self.pavings[class / (2 * MODES)], 1 << (class % (2 * MODES)))
+    /// The paving that decides a class, and the class's bit in it; `None` if there is no such class.
+    pub fn paving_of(&self, class: ClassId) -> Option<(&Paving, ClassSet)> {
+        (class.index() < self.classes.len()).then(|| self.paving_behind(class))
     }
 
-    /// Returns the place of `pose` with respect to class `class` (index into [`Analysis::classes`]); angles
-    /// count modulo 2π. A pose on the boundary of two cells may get the answer of either; one off the slice
-    /// is outside.
+    /// [`Analysis::paving_of`] a class that there is.
+    pub(crate) fn paving_behind(&self, class: ClassId) -> (&Paving, ClassSet) {
+        let k = class.index();
+        (&self.pavings[k / (2 * MODES)], 1 << (k % (2 * MODES)))
+    }
+
+    /// Returns the place of `pose` with respect to a class; angles count modulo 2π. A pose on the boundary of
+    /// two cells may get the answer of either; one off the slice is outside, as is every one of a class that
+    /// there is not.
     ///
     /// # Examples
     /// ```
@@ -111,55 +118,57 @@ impl Analysis {
     /// let analysis = analyze(&robot, &options, &Control::unwatched())?;
     ///
     /// let class = analysis.class_of("++".parse()?, DetSign::Positive).expect("analysed");
-    /// assert!(matches!(analysis.locate(class, &[4.0, 7.0]), Place::Inside(_)));
-    /// assert_eq!(analysis.locate(class, &[40.0, 0.0]), Place::Outside);
+    /// assert!(matches!(analysis.locate(&[4.0, 7.0], class), Place::Inside(_)));
+    /// assert_eq!(analysis.locate(&[40.0, 0.0], class), Place::Outside);
     /// # Ok(())
     /// # }
     /// ```
-    pub fn locate(&self, class: usize, pose: &[f64]) -> Place {
+    pub fn locate(&self, pose: &[f64], class: ClassId) -> Place {
+        let Some((paving, _)) = self.paving_of(class) else { return Place::Outside };
         let pose = self.window.turned(pose);
-        let labels = &self.labels[class];
+        let labels = &self.labels[class.index()];
         let label = |node: u32| labels.binary_search_by_key(&node, |l| l.0).ok().map(|k| labels[k].1);
-        let found = self.paving_of(class).0.descend_to(&pose, &mut |node| label(node).is_some());
-        match found.and_then(|(node, _)| label(node)) {
-            Some(0) => Place::Undecided,
-            Some(id) => Place::Inside(id as usize),
+        let found = paving.descend_to(&pose, &mut |node| label(node).is_some());
+        match found.and_then(|(node, _)| label(node)).map(labelled) {
+            Some(Some(id)) => Place::Inside(id),
+            Some(None) => Place::Undecided,
             None => Place::Outside,
         }
     }
 }
 
 impl Analysis {
-    /// The class (index into [`Analysis::classes`]) and the entry of the aspect with this [`Aspect::id`].
-    pub fn aspect(&self, id: usize) -> Option<(usize, &Aspect)> {
+    /// The class and the entry of an aspect.
+    pub fn aspect(&self, id: AspectId) -> Option<(ClassId, &Aspect)> {
         let found = |(k, class): (usize, &'_ AspectClass)| {
             class.aspects.iter().position(|a| a.id == id).map(|i| (k, i))
         };
         let (class, i) = self.classes.iter().enumerate().find_map(found)?;
-        Some((class, &self.classes[class].aspects[i]))
+        Some((ClassId::new(class), &self.classes[class].aspects[i]))
     }
 
-    /// The class (index into [`Analysis::classes`]) of a mode and a sign of det A, if it was analysed.
-    pub fn class_of(&self, mode: WorkingMode, det_a: DetSign) -> Option<usize> {
-        self.classes.iter().position(|class| class.mode == mode && class.det_a == det_a)
+    /// The class of a mode and a sign of det A, if it was analysed.
+    pub fn class_of(&self, mode: WorkingMode, det_a: DetSign) -> Option<ClassId> {
+        let class = self.classes.iter().position(|class| class.mode == mode && class.det_a == det_a);
+        class.map(ClassId::new)
     }
 
-    /// Whether what is shown as the aspect with this [`Aspect::id`] is proved to be one: no aspect can hide in undecided boxes, and all its
+    /// Whether what is shown as an aspect is proved to be one: no aspect can hide in undecided boxes, and all its
     /// summits lie in one connected piece (`docs/theory.md`, 4). Else two poses in it may lie in two aspects.
-    pub fn is_one(&self, id: usize) -> bool {
+    pub fn is_one(&self, id: AspectId) -> bool {
         self.aspect(id)
-            .is_some_and(|(class, aspect)| self.classes[class].high.is_some() && aspect.pieces == 1)
+            .is_some_and(|(class, aspect)| self.classes[class.index()].high.is_some() && aspect.pieces == 1)
     }
 
-    /// Which of its class's aspects, the largest first, the one with this [`Aspect::id`] is, from 1, and how many the class has. Unlike its id this
+    /// Which of its class's aspects, the largest first, an aspect is, from 1, and how many the class has. Unlike its number this
     /// does not depend on which modes were analysed.
-    pub fn rank(&self, id: usize) -> Option<(usize, usize)> {
+    pub fn rank(&self, id: AspectId) -> Option<(usize, usize)> {
         let (class, _) = self.aspect(id)?;
-        let aspects = &self.classes[class].aspects;
+        let aspects = &self.classes[class.index()].aspects;
         Some((1 + aspects.iter().position(|aspect| aspect.id == id)?, aspects.len()))
     }
 
-    /// The [`Aspect::id`] of the aspect that a pose of class `class` lies in; `None` if the pose is not in the class, or lies in
+    /// The aspect that a pose of a class lies in; `None` if the pose is not in the class, or lies in
     /// an undecided cell from which no certified ascent leads into a cell of an aspect. Certified where `Some`.
     ///
     /// # Examples
@@ -174,19 +183,19 @@ impl Analysis {
     /// let analysis = analyze(&robot, &options, &Control::unwatched())?;
     ///
     /// let class = analysis.class_of("++".parse()?, DetSign::Positive).expect("analysed");
-    /// let id = analysis.aspect_at(class, &[4.0, 7.0]).expect("in an aspect");
+    /// let id = analysis.aspect_at(&[4.0, 7.0], class).expect("in an aspect");
     /// assert_eq!(analysis.aspect(id).map(|(class, _)| class), Some(class));
     /// # Ok(())
     /// # }
     /// ```
-    pub fn aspect_at(&self, class: usize, pose: &[f64]) -> Option<usize> {
-        match self.locate(class, pose) {
+    pub fn aspect_at(&self, pose: &[f64], class: ClassId) -> Option<AspectId> {
+        match self.locate(pose, class) {
             Place::Inside(id) => Some(id),
             Place::Outside => None,
             Place::Undecided => {
                 let mut found = None;
-                self.climb(class, pose, &mut |pose| {
-                    if let Place::Inside(id) = self.locate(class, pose) {
+                self.climb(pose, class, &mut |pose| {
+                    if let Place::Inside(id) = self.locate(pose, class) {
                         found = Some(id);
                     }
                     found.is_some()
@@ -196,14 +205,19 @@ impl Analysis {
         }
     }
 
-    /// Climbs from a pose of class `class` away from the boundary of its aspect, until `reached` says so of a pose or no step can be
+    /// Climbs from a pose of a class away from the boundary of its aspect, until `reached` says so of a pose or no step can be
     /// proved any more. The straight segments between the poses visited are proved to stay in the class.
-    pub(crate) fn climb(&self, class: usize, pose: &[f64], reached: &mut impl FnMut(&[f64]) -> bool) {
-        let AspectClass { mode, det_a, .. } = self.classes[class];
-        let (paving, bit) = self.paving_of(class);
+    pub(crate) fn climb(&self, pose: &[f64], class: ClassId, reached: &mut impl FnMut(&[f64]) -> bool) {
+        let AspectClass { mode, det_a, .. } = self.classes[class.index()];
+        let (paving, bit) = self.paving_behind(class);
         let seen = Class { mode, sign: det_a.factor(), bit };
         for_platform!(self.robot.platform, ascend(&self.robot, paving, seen, pose, reached));
     }
+}
+
+/// The aspect that a label stands for: 0 for none.
+fn labelled(id: u32) -> Option<AspectId> {
+    (id > 0).then(|| AspectId::new(id as usize))
 }
 
 /// Proved bounds on a number of aspects.
@@ -233,8 +247,8 @@ pub struct Doubt {
     pub measure: f64,
     /// The largest of them: a range per coordinate, of the pose or, if `fold` is set, of that leg's own coordinates.
     pub place: Vec<(f64, f64)>,
-    /// The leg (from 1) in whose own coordinates `place` is.
-    pub fold: Option<usize>,
+    /// The leg in whose own coordinates `place` is.
+    pub fold: Option<LegIndex>,
     /// The functions whose signs are not decided there: `det A`, `H_1` (serial singularity of leg 1), `actuator limit of leg 2`.
     pub undecided: Vec<String>,
 }
@@ -292,8 +306,8 @@ impl std::fmt::Display for DetSign {
 /// Theorem 1 for one leg.
 #[derive(Clone, Debug, Serialize)]
 pub struct LegReport {
-    /// Leg number, from 1.
-    pub leg: usize,
+    /// The leg.
+    pub leg: LegIndex,
     /// Kind of actuator.
     pub actuator: &'static str,
     /// Number of inverse solutions.
@@ -353,8 +367,8 @@ pub struct AspectClass {
 #[derive(Clone, Debug, Serialize)]
 #[non_exhaustive]
 pub struct Aspect {
-    /// Number within the whole analysis, from 1.
-    pub id: usize,
+    /// Its number within the whole analysis.
+    pub id: AspectId,
     /// Certified inner measure.
     pub measure: f64,
     /// In how many certified connected pieces its inner cells fall: 1 if all are proved connected; k > 1
@@ -424,6 +438,6 @@ pub struct Cell {
     pub lo: [f64; 3],
     /// Upper corner.
     pub hi: [f64; 3],
-    /// The [`Aspect::id`] the cell certainly lies in, or `None` if undecided.
-    pub aspect: Option<usize>,
+    /// The aspect the cell certainly lies in, or `None` if undecided.
+    pub aspect: Option<AspectId>,
 }

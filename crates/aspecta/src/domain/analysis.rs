@@ -1,5 +1,6 @@
 //! From an aspect to its domains.
 
+use super::RegionId;
 use super::grid::{Grid, Pose};
 use super::images::Images;
 use super::labels::{Labels, OUTSIDE};
@@ -8,7 +9,7 @@ use super::result::*;
 use super::sheet::Sheet;
 use super::slice::Beyond;
 use super::uniqueness::maximal_sets;
-use crate::aspect::Analysis;
+use crate::aspect::{Analysis, AspectId};
 use crate::paving::Control;
 use aspecta_robot::num::Random;
 use aspecta_robot::{text, work};
@@ -17,14 +18,14 @@ use std::collections::BTreeSet;
 /// Most nodes of a grid.
 const MOST_NODES: usize = 200_000_000;
 
-/// The basic regions, their images and the uniqueness domains of the aspect with the given [`crate::aspect::Aspect::id`].
+/// The basic regions, their images and the uniqueness domains of an aspect.
 ///
 /// # Errors
 /// [`DomainError`].
 ///
 /// # Examples
 /// ```
-/// use aspecta::{Budget, Control, DomainOptions, Options, Robot, analyze, domains};
+/// use aspecta::{AspectId, Budget, Control, DomainOptions, Options, Robot, analyze, domains};
 ///
 /// # fn main() -> Result<(), aspecta::Error> {
 /// let robot = Robot::resolve("five-bar")?;
@@ -34,25 +35,24 @@ const MOST_NODES: usize = 200_000_000;
 /// let analysis = analyze(&robot, &options, &Control::unwatched())?;
 ///
 /// let options = DomainOptions { cells: 20, samples: 100 };
-/// let found = domains(&analysis, 1, options, &Control::unwatched())?;
+/// let found = domains(&analysis, AspectId::new(1), &options, &Control::unwatched())?;
 /// assert!(!found.regions.is_empty() && !found.uniqueness.is_empty());
 /// assert!(found.uniqueness[0].of_aspect <= 1.0);
-/// assert!(domains(&analysis, 99, options, &Control::unwatched()).is_err());
+/// assert!(domains(&analysis, AspectId::new(99), &options, &Control::unwatched()).is_err());
 /// # Ok(())
 /// # }
 /// ```
 pub fn domains(
     analysis: &Analysis,
-    id: usize,
-    options: DomainOptions,
+    aspect: AspectId,
+    options: &DomainOptions,
     control: &Control<'_>,
 ) -> Result<Domains, DomainError> {
     let whole = analysis.robot.workspace_window()?;
-    let missing = DomainError::NoAspect { id, count: analysis.aspects.low };
-    let (Some(sheet), Some((class, aspect))) = (Sheet::new(analysis, id), analysis.aspect(id)) else {
-        return Err(missing);
+    let (Some(sheet), Some((class, found))) = (Sheet::new(analysis, aspect), analysis.aspect(aspect)) else {
+        return Err(DomainError::NoAspect { id: aspect, count: analysis.aspects.low });
     };
-    let grid = Grid::new(&analysis.window, &whole, &aspect.w_bounds, options.cells);
+    let grid = Grid::new(&analysis.window, &whole, &found.w_bounds, options.cells);
     if grid.len() > MOST_NODES {
         return Err(DomainError::TooFine { nodes: grid.len(), most: MOST_NODES });
     }
@@ -71,17 +71,17 @@ pub fn domains(
     meeting.extend(&beyond.coincident);
     let conflict = meeting.union(&beyond.undecided).copied().collect();
     let (uniqueness, complete) = uniqueness(analysis, &partition, regions, &adjacent, &conflict);
-    let numbered = |pairs: &Pairs| pairs.iter().map(|(a, b)| (a + 1, b + 1)).collect();
-    let entry = &analysis.classes[class];
+    let numbered = |pairs: &Pairs| pairs.iter().map(|&(a, b)| (number(a), number(b))).collect();
+    let entry = &analysis.classes[class.index()];
     Ok(Domains {
-        aspect: id,
+        aspect,
         mode: entry.mode,
         det_a: entry.det_a,
         unit: analysis.measure.clone(),
         cell: partition.labels.grid.step[..partition.labels.grid.axes()].to_vec(),
         measure: measure_of(&all),
         unresolved: Unresolved { parts: slivers.len(), measure: measure_of(slivers) },
-        regions: (1..).zip(regions).map(|(number, r)| basic_region(&partition, number, r)).collect(),
+        regions: regions.iter().enumerate().map(|(k, r)| basic_region(&partition, number(k), r)).collect(),
         adjacent: numbered(&adjacent),
         coincidences: coincidences(&images, &beyond, &meeting),
         joined: numbered(&beyond.joined),
@@ -95,6 +95,11 @@ pub fn domains(
         window: analysis.window.clone(),
         pose: text::Labels::pose(&analysis.robot, false),
     })
+}
+
+/// The number of the region with this index.
+fn number(index: usize) -> RegionId {
+    RegionId::new(index + 1)
 }
 
 /// Pairs of regions, by index, the lesser first.
@@ -119,7 +124,7 @@ fn uniqueness(
     let domain = |set: Vec<usize>| {
         let measure = set.iter().map(|&r| regions[r].nodes as f64 * cell).sum();
         UniquenessDomain {
-            regions: set.into_iter().map(|r| r + 1).collect(),
+            regions: set.into_iter().map(number).collect(),
             measure,
             of_aspect: measure / aspect,
             // More than all of it: the boxes are too coarse to compare with.
@@ -143,7 +148,7 @@ fn workspace(analysis: &Analysis) -> Option<f64> {
     (sum > 0.0).then_some(sum)
 }
 
-fn basic_region(partition: &Partition, number: usize, region: &Region) -> BasicRegion {
+fn basic_region(partition: &Partition, number: RegionId, region: &Region) -> BasicRegion {
     let grid = &partition.labels.grid;
     BasicRegion {
         number,
@@ -159,7 +164,7 @@ fn coincidences(images: &Images, beyond: &Beyond, meeting: &Pairs) -> Vec<Coinci
         let (a, b) = *pair;
         let seen_on_the_slice = !beyond.coincident.contains(pair);
         let shares = seen_on_the_slice.then(|| (images.share(a, b), images.share(b, a)));
-        Coincidence { regions: (a + 1, b + 1), shares }
+        Coincidence { regions: (number(a), number(b)), shares }
     };
     meeting.map(entry).collect()
 }
@@ -174,7 +179,7 @@ fn violations(
     let dof = partition.labels.grid.dof();
     let violation = |region: usize, [pose, twin]: [&[f64]; 2]| {
         let q = sheet.joints(pose)?[..dof].to_vec();
-        Some(Violation { region: region + 1, q, poses: [pose.to_vec(), twin.to_vec()] })
+        Some(Violation { region: number(region), q, poses: [pose.to_vec(), twin.to_vec()] })
     };
     let on_grid = |region: usize| {
         let pose = partition.labels.grid.pose(images.within(region)?);
@@ -216,7 +221,7 @@ fn agreement(sheet: &Sheet<'_>, partition: &Partition, regions: &[Region], sampl
         } else {
             agreement.disagreements.push(Disagreement {
                 pose,
-                region: region + 1,
+                region: number(region),
                 solutions,
                 distance: None,
             });

@@ -16,7 +16,7 @@ pub(crate) use corner::onto;
 pub(super) use lattice::orders;
 
 use super::field::Field;
-use crate::aspect::{Analysis, Aspect, DetSign, Place};
+use crate::aspect::{Analysis, Aspect, AspectId, ClassId, DetSign, Place};
 use aspecta_kinematics::constraints::Constraint;
 use aspecta_kinematics::{WorkingMode, for_platform};
 use aspecta_robot::work;
@@ -75,8 +75,8 @@ impl Simplex {
 /// The boundary of a W-aspect.
 #[derive(Clone, Debug, Serialize)]
 pub struct Boundary {
-    /// [`crate::aspect::Aspect::id`].
-    pub aspect: usize,
+    /// The aspect.
+    pub aspect: AspectId,
     /// Its working mode.
     pub mode: WorkingMode,
     /// Its sign of det A.
@@ -94,9 +94,9 @@ pub struct Boundary {
     pub unplaced: usize,
     /// Nodes of the grid in the class of which it is not known in which aspect they lie; they were left out.
     pub unassigned: usize,
-    /// Index of its class.
+    /// Its class.
     #[serde(skip)]
-    pub(crate) class: usize,
+    pub(crate) class: ClassId,
     /// The diagonal of a cell of the grid, in widths of the window.
     #[serde(skip)]
     pub(crate) cell: f64,
@@ -110,8 +110,8 @@ pub enum BoundaryError {
     /// No such aspect.
     #[error("there is no aspect {id}: the analysis found {count}, numbered from 1")]
     NoSuchAspect {
-        /// Number given.
-        id: usize,
+        /// The one asked for.
+        id: AspectId,
         /// Number of aspects.
         count: usize,
     },
@@ -126,13 +126,12 @@ pub enum BoundaryError {
 }
 
 impl Boundary {
-    /// The boundary of the aspect with this [`crate::aspect::Aspect::id`], on a grid with `cells` cells per
-    /// axis over the aspect's bounds. In a slice: the boundary within the slice.
+    /// The boundary of an aspect, on a grid with `cells` cells per axis over the aspect's bounds. In a slice: the boundary within the slice.
     ///
     /// # Errors
     /// [`BoundaryError`] if there is no such aspect, the slice is a line, or the number of cells is out of
     /// range.
-    pub fn new(analysis: &Analysis, aspect: usize, cells: usize) -> Result<Self, BoundaryError> {
+    pub fn new(analysis: &Analysis, aspect: AspectId, cells: usize) -> Result<Self, BoundaryError> {
         let dimension = analysis.window.axes().len();
         if dimension < 2 {
             return Err(BoundaryError::Line(dimension));
@@ -156,11 +155,11 @@ impl Boundary {
         field: &Field<'_, D, N>,
         pose: &[f64; N],
     ) -> Option<bool> {
-        let class = &analysis.classes[self.class];
+        let class = &analysis.classes[self.class.index()];
         if class.low == 1 && class.high == Some(1) {
             return Some(true);
         }
-        if let Place::Inside(id) = analysis.locate(self.class, pose) {
+        if let Place::Inside(id) = analysis.locate(pose, self.class) {
             return Some(id == self.aspect);
         }
         let seen = |node: &usize| {
@@ -180,11 +179,11 @@ impl Boundary {
 
 fn extract<const D: usize, const N: usize>(
     analysis: &Analysis,
-    class: usize,
+    class: ClassId,
     aspect: &Aspect,
     cells: usize,
 ) -> Boundary {
-    let of = &analysis.classes[class];
+    let of = &analysis.classes[class.index()];
     let field =
         Field::<D, N> { robot: &analysis.robot, mode: of.mode, sign: of.det_a, window: &analysis.window };
     let id = aspect.id;

@@ -14,7 +14,7 @@
 
 mod net;
 
-use crate::aspect::Analysis;
+use crate::aspect::{Analysis, AspectId};
 use crate::domain::boundary::{Boundary, BoundaryVertex, Simplex};
 use crate::domain::field::Field;
 use aspecta_kinematics::for_platform;
@@ -41,8 +41,8 @@ pub struct CharacteristicVertex {
 /// The characteristic surfaces of an aspect: polylines in two dimensions, triangle meshes in three.
 #[derive(Clone, Debug, Serialize)]
 pub struct Characteristic {
-    /// [`crate::aspect::Aspect::id`].
-    pub aspect: usize,
+    /// The aspect.
+    pub aspect: AspectId,
     /// Number of coordinates, 2 or 3.
     pub dimension: usize,
     /// The points of the boundary that were looked at: the vertices of the [`Boundary`] in their order, then
@@ -81,7 +81,7 @@ pub enum CharacteristicError {
     Slice,
     /// The boundary belongs to something else.
     #[error("the boundary of aspect {0} was not computed from this analysis: compute it again")]
-    Stranger(usize),
+    Stranger(AspectId),
 }
 
 impl Characteristic {
@@ -96,7 +96,7 @@ impl Characteristic {
         if !analysis.fixed.is_empty() {
             return Err(CharacteristicError::Slice);
         }
-        let class = analysis.classes.get(boundary.class).filter(|c| {
+        let class = analysis.classes.get(boundary.class.index()).filter(|c| {
             c.mode == boundary.mode
                 && c.det_a == boundary.det_a
                 && c.aspects.iter().any(|a| a.id == boundary.aspect)

@@ -2,7 +2,7 @@
 //! gradients.
 
 use super::face::Face;
-use crate::aspect::{Analysis, DetSign, Place};
+use crate::aspect::{Analysis, AspectId, ClassId, DetSign, Place};
 use aspecta_kinematics::constraints::{Constraint, Constraints, Demand};
 use aspecta_kinematics::modal::{LegClosure, closures};
 use aspecta_kinematics::placement::{Placement, leg_gradient, moved, wrench};
@@ -79,7 +79,7 @@ impl<const D: usize, const N: usize> Field<'_, D, N> {
         let mut folded = false;
         self.visit::<f64>(x, 0, |face, value| {
             if let Face::Of(Constraint::Reach(j)) = face
-                && let Some(greatest) = self.robot.legs[j].actuator.greatest_reach()
+                && let Some(greatest) = self.robot.legs[j.index()].actuator.greatest_reach()
             {
                 folded |= value <= SINGULAR * SINGULAR * greatest.mid();
             }
@@ -164,14 +164,20 @@ impl<const D: usize, const N: usize> Field<'_, D, N> {
         sum.map(|g| g / size)
     }
 
-    /// The aspect of class number `class` in which x lies, strictly inside the class: that of the first place
+    /// The aspect of a class in which x lies, strictly inside the class: that of the first place
     /// known to `analysis` on a climb of U, which does not leave the class as far as samples show. `None` if
     /// there is none within ten times `cell`.
-    pub fn aspect_of(&self, analysis: &Analysis, class: usize, x: &[f64; N], cell: f64) -> Option<usize> {
+    pub fn aspect_of(
+        &self,
+        analysis: &Analysis,
+        class: ClassId,
+        x: &[f64; N],
+        cell: f64,
+    ) -> Option<AspectId> {
         const STEPS: usize = 40;
         let mut at = *x;
         for _ in 0..STEPS {
-            if let Place::Inside(id) = analysis.locate(class, &at) {
+            if let Place::Inside(id) = analysis.locate(&at, class) {
                 return Some(id);
             }
             let (here, way) = (self.height(&at), self.uphill(&at));
@@ -350,7 +356,7 @@ pub fn norm<const N: usize>(v: &[f64; N]) -> f64 {
 /// The legs whose serial singularity is among the faces.
 fn flat_legs(faces: &[Option<Face>; 3]) -> u8 {
     let leg = |face: &Face| match face {
-        Face::Of(Constraint::Reach(j)) => 1 << j,
+        Face::Of(Constraint::Reach(j)) => 1 << j.index(),
         Face::Of(Constraint::Limit(..) | Constraint::Det) | Face::Cut { .. } => 0,
     };
     faces.iter().flatten().map(leg).fold(0, |set: u8, leg: u8| set | leg)

@@ -9,6 +9,7 @@ mod file;
 
 pub use file::{MAP_VERSION, MapError};
 
+use super::RegionId;
 use super::face::Face;
 use super::field::Field;
 use super::grid::Pose;
@@ -16,12 +17,12 @@ use super::labels::OUTSIDE;
 use super::mesh::Surfaces;
 use super::result::Domains;
 use super::sheet::{Belongs, Sheet};
-use crate::aspect::{Analysis, Count, DetSign, Measure};
+use crate::aspect::{Analysis, AspectId, Count, DetSign, Measure};
 use aspecta_kinematics::constraints::{Constraint, Demand, Kind};
 use aspecta_kinematics::path::curve::Along;
 use aspecta_kinematics::{KinematicsError, WorkingMode, check_pose, for_platform};
 use aspecta_robot::num::padded;
-use aspecta_robot::{Robot, Window};
+use aspecta_robot::{LegIndex, Robot, Window};
 use serde::{Deserialize, Serialize};
 
 /// Interval evaluations spent on a segment from a pose to a node.
@@ -52,8 +53,8 @@ pub struct MappedClass {
     pub mode: WorkingMode,
     /// The sign.
     pub det_a: DetSign,
-    /// The [`crate::aspect::Aspect::id`] of the aspects found in it.
-    pub aspects: Vec<usize>,
+    /// The aspects found in it.
+    pub aspects: Vec<AspectId>,
 }
 
 /// An aspect cut into regions.
@@ -73,10 +74,10 @@ pub struct Location {
     pub mode: WorkingMode,
     /// The sign of det A.
     pub det_a: DetSign,
-    /// The [`crate::aspect::Aspect::id`]; `None` where neither the class nor a proved segment to a mapped aspect tells.
-    pub aspect: Option<usize>,
-    /// The number of the basic region; `None` if the aspect is not mapped, or too thin here for the grid.
-    pub region: Option<usize>,
+    /// The aspect; `None` where neither the class nor a proved segment to a mapped aspect tells.
+    pub aspect: Option<AspectId>,
+    /// The basic region; `None` if the aspect is not mapped, or too thin here for the grid.
+    pub region: Option<RegionId>,
 }
 
 /// Why a pose is in no aspect.
@@ -91,7 +92,7 @@ pub enum Nowhere {
     Window,
     /// A leg does not reach it, or just so: at a serial singularity.
     #[error("leg {0} does not reach")]
-    OutOfReach(usize),
+    OutOfReach(LegIndex),
     /// A limit of the machine.
     #[error("beyond {0}")]
     Limit(Constraint),
@@ -118,8 +119,8 @@ impl Map {
         }
     }
 
-    /// The regions and domains of the aspect with this [`crate::aspect::Aspect::id`], if it was cut up.
-    pub fn domains(&self, aspect: usize) -> Option<&Domains> {
+    /// The regions and domains of an aspect, if it was cut up.
+    pub fn domains(&self, aspect: AspectId) -> Option<&Domains> {
         self.sheets.iter().map(|sheet| &sheet.domains).find(|domains| domains.aspect == aspect)
     }
 
@@ -130,7 +131,7 @@ impl Map {
     ///
     /// # Examples
     /// ```
-    /// use aspecta::{Budget, Control, DomainOptions, Map, MappedAspect, Options, Robot, analyze, domains};
+    /// use aspecta::{AspectId, Budget, Control, DomainOptions, Map, MappedAspect, Options, Robot, analyze, domains};
     ///
     /// # fn main() -> Result<(), aspecta::Error> {
     /// let robot = Robot::resolve("five-bar")?;
@@ -140,7 +141,7 @@ impl Map {
     /// let analysis = analyze(&robot, &options, &Control::unwatched())?;
     ///
     /// let options = DomainOptions { cells: 20, samples: 100 };
-    /// let domains = domains(&analysis, 1, options, &Control::unwatched())?;
+    /// let domains = domains(&analysis, AspectId::new(1), &options, &Control::unwatched())?;
     /// let map = Map::new(&analysis, vec![MappedAspect { domains, surfaces: None }]);
     ///
     /// let found = map.locate(&[4.0, 7.0], "++".parse()?)?;
@@ -169,7 +170,7 @@ impl Map {
     }
 
     /// The numbers, from 1, of the uniqueness domains of an aspect that hold a region: their places in [`Domains::uniqueness`].
-    pub fn uniqueness(&self, aspect: usize, region: usize) -> impl Iterator<Item = usize> {
+    pub fn uniqueness(&self, aspect: AspectId, region: RegionId) -> impl Iterator<Item = usize> {
         let all = self.domains(aspect).map_or(&[][..], |domains| &domains.uniqueness);
         (1..).zip(all).filter(move |(_, domain)| domain.regions.contains(&region)).map(|(number, _)| number)
     }
@@ -179,8 +180,8 @@ impl Map {
         self.sheets.iter().map(|sheet| &sheet.domains).filter(move |d| (d.mode, d.det_a) == key)
     }
 
-    /// The number of the region all round a pose of a class, if the pose is proved to lie in its aspect.
-    fn region_round(&self, class: &MappedClass, domains: &Domains, pose: &[f64]) -> Option<usize> {
+    /// The region all round a pose of a class, if the pose is proved to lie in its aspect.
+    fn region_round(&self, class: &MappedClass, domains: &Domains, pose: &[f64]) -> Option<RegionId> {
         let region = domains.labels.region_round(pose).filter(|region| *region != OUTSIDE)?;
         let number = domains.regions.get(region as usize)?.number;
         if class.aspects.len() == 1 {
@@ -193,7 +194,7 @@ impl Map {
     }
 
     /// The aspect of a pose of a class.
-    fn aspect_of(&self, class: &MappedClass, pose: &[f64]) -> Option<usize> {
+    fn aspect_of(&self, class: &MappedClass, pose: &[f64]) -> Option<AspectId> {
         if let [only] = class.aspects[..] {
             return Some(only);
         }
@@ -209,13 +210,13 @@ impl Map {
         Along::is_inside(&self.robot, &demand, [pose, &node[..pose.len()]], EFFORT)
     }
 
-    /// The aspect with this [`crate::aspect::Aspect::id`] as a function.
-    pub fn sheet(&self, aspect: usize) -> Option<Sheet<'_>> {
+    /// An aspect as a function; `None` if there is no such one.
+    pub fn sheet(&self, aspect: AspectId) -> Option<Sheet<'_>> {
         let class = self.classes.iter().find(|class| class.aspects.contains(&aspect))?;
         Some(self.sheet_in(class, aspect))
     }
 
-    fn sheet_in<'a>(&'a self, class: &'a MappedClass, aspect: usize) -> Sheet<'a> {
+    fn sheet_in<'a>(&'a self, class: &'a MappedClass, aspect: AspectId) -> Sheet<'a> {
         let belongs = (class.aspects.len() > 1)
             .then(|| -> Belongs<'a> { Box::new(move |pose| self.aspect_of(class, pose) == Some(aspect)) });
         Sheet::of(&self.robot, &self.window, (class.mode, class.det_a), belongs)
@@ -232,7 +233,7 @@ fn sign_at<const D: usize, const N: usize>(
     field.sign_at(&std::array::from_fn(|k| pose[k])).map_err(|face| match face {
         Face::Of(constraint) => match constraint.kind() {
             Kind::Parallel => Nowhere::Singular,
-            Kind::Serial(leg) => Nowhere::OutOfReach(leg + 1),
+            Kind::Serial(leg) => Nowhere::OutOfReach(leg),
             Kind::Limit => Nowhere::Limit(constraint),
         },
         Face::Cut { .. } => Nowhere::Window,

@@ -16,6 +16,7 @@ pub use aspecta_kinematics::cusps;
 mod face;
 mod field;
 mod grid;
+mod id;
 mod images;
 mod labels;
 mod map;
@@ -27,6 +28,7 @@ pub mod slice;
 mod uniqueness;
 
 pub use analysis::domains;
+pub use id::RegionId;
 pub use labels::{Labels, OUTSIDE};
 pub use map::{Location, MAP_VERSION, Map, MapError, MappedAspect, MappedClass, Nowhere};
 pub use mesh::{Mesh, Surfaces};

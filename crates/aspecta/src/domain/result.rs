@@ -1,9 +1,10 @@
 //! The partition of an aspect as plain values.
 
+use super::RegionId;
 use super::labels::Labels;
 use super::mesh::Mesh;
 use super::sheet::Sheet;
-use crate::aspect::{Analysis, DetSign, Measure};
+use crate::aspect::{Analysis, AspectId, DetSign, Measure};
 use aspecta_robot::num::without_turns;
 use aspecta_robot::{Unbounded, Window, WorkingMode, text};
 use serde::{Deserialize, Serialize};
@@ -30,8 +31,8 @@ pub enum DomainError {
     /// No such aspect.
     #[error("there is no aspect {id}: the analysis found {count}, numbered from 1")]
     NoAspect {
-        /// The number asked for.
-        id: usize,
+        /// The one asked for.
+        id: AspectId,
         /// How many there are.
         count: usize,
     },
@@ -59,8 +60,8 @@ pub enum DomainError {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Domains {
-    /// The aspect: [`crate::aspect::Aspect::id`].
-    pub aspect: usize,
+    /// The aspect.
+    pub aspect: AspectId,
     /// Its working mode.
     pub mode: WorkingMode,
     /// The sign of det A in it.
@@ -76,16 +77,16 @@ pub struct Domains {
     pub regions: Vec<BasicRegion>,
     /// The nodes in parts thinner than two cells, which could not be joined to a region.
     pub unresolved: Unresolved,
-    /// Pairs of regions (numbered from 1) that touch.
-    pub adjacent: Vec<(usize, usize)>,
+    /// Pairs of regions that touch.
+    pub adjacent: Vec<(RegionId, RegionId)>,
     /// Pairs of regions whose images have joint vectors in common.
     pub coincidences: Vec<Coincidence>,
     /// On a slice, pairs of regions seen to be parts of one basic region, joined outside the slice.
     #[serde(default)]
-    pub joined: Vec<(usize, usize)>,
+    pub joined: Vec<(RegionId, RegionId)>,
     /// On a slice, pairs of regions with the same number of solutions whose images may coincide or be disjoint: no way tried has shown which.
     #[serde(default)]
-    pub undecided: Vec<(usize, usize)>,
+    pub undecided: Vec<(RegionId, RegionId)>,
     /// The maximal uniqueness domains, largest first. On a slice, its parts of uniqueness domains: none holds two regions of which it is
     /// undecided whether their images coincide, so there may be larger ones.
     pub uniqueness: Vec<UniquenessDomain>,
@@ -109,13 +110,13 @@ pub struct Domains {
 }
 
 impl Domains {
-    /// The number of the basic region that a pose lies in; `None` outside the aspect, and where the grid is too coarse to tell.
-    pub fn region_at(&self, analysis: &Analysis, pose: &[f64]) -> Option<usize> {
+    /// The basic region that a pose lies in; `None` outside the aspect, and where the grid is too coarse to tell.
+    pub fn region_at(&self, analysis: &Analysis, pose: &[f64]) -> Option<RegionId> {
         self.region_on(&Sheet::new(analysis, self.aspect)?, pose)
     }
 
-    /// Returns the number of the basic region of `pose`, as [`Self::region_at`] does, on the aspect given.
-    pub(super) fn region_on(&self, sheet: &Sheet<'_>, pose: &[f64]) -> Option<usize> {
+    /// Returns the basic region of `pose`, as [`Self::region_at`] does, on the aspect given.
+    pub(super) fn region_on(&self, sheet: &Sheet<'_>, pose: &[f64]) -> Option<RegionId> {
         let solutions = |region: u32| self.regions.get(region as usize).map(|found| found.solutions);
         let region = self.labels.region_of(sheet, solutions, pose)?;
         self.regions.get(region as usize).map(|found| found.number)
@@ -138,8 +139,8 @@ impl Domains {
         }
     }
 
-    /// Whether the images of two basic regions (by number) meet: then their basic components coincide.
-    pub fn coincide(&self, a: usize, b: usize) -> bool {
+    /// Whether the images of two basic regions meet: then their basic components coincide.
+    pub fn coincide(&self, a: RegionId, b: RegionId) -> bool {
         self.coincidences.iter().any(|c| c.regions == (a.min(b), a.max(b)))
     }
 }
@@ -148,8 +149,8 @@ impl Domains {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct BasicRegion {
-    /// From 1.
-    pub number: usize,
+    /// Its number in the partition.
+    pub number: RegionId,
     /// Measure.
     pub measure: f64,
     /// Direct solutions in the aspect of each of its joint vectors; on a slice, in the class, outside the slice too.
@@ -170,8 +171,8 @@ pub struct Unresolved {
 /// Two regions with joint vectors in common.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Coincidence {
-    /// Their numbers.
-    pub regions: (usize, usize),
+    /// The regions, the lesser number first.
+    pub regions: (RegionId, RegionId),
     /// The share of the first region's joint vectors that have a pose in the second, and the other way round, away from the
     /// surfaces. By the consequence of Theorem 2 both are 1. `None` if the images were seen to coincide outside a slice.
     pub shares: Option<(f64, f64)>,
@@ -182,7 +183,7 @@ pub struct Coincidence {
 #[non_exhaustive]
 pub struct UniquenessDomain {
     /// Its regions.
-    pub regions: Vec<usize>,
+    pub regions: Vec<RegionId>,
     /// Measure.
     pub measure: f64,
     /// Share of the aspect.
@@ -195,7 +196,7 @@ pub struct UniquenessDomain {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Violation {
     /// The region.
-    pub region: usize,
+    pub region: RegionId,
     /// The poses.
     pub poses: [Vec<f64>; 2],
     /// Their joint vector.
@@ -221,7 +222,7 @@ pub struct Disagreement {
     /// The pose.
     pub pose: Vec<f64>,
     /// The region it should lie in.
-    pub region: usize,
+    pub region: RegionId,
     /// Direct solutions in the aspect.
     pub solutions: u8,
     /// How far it is from the nearest vertex of the characteristic surfaces, in cells, coordinate by coordinate; `None` until

@@ -3,7 +3,7 @@
 
 use super::field::Field;
 use super::grid::{Grid, Pose};
-use crate::aspect::{Analysis, DetSign};
+use crate::aspect::{Analysis, AspectId, DetSign};
 use arrayvec::ArrayVec;
 use aspecta_kinematics::Kinematics;
 use aspecta_kinematics::direct::CAPACITY;
@@ -41,15 +41,16 @@ pub struct Sheet<'a> {
 pub(super) type Belongs<'a> = Box<dyn Fn(&[f64]) -> bool + Sync + 'a>;
 
 impl<'a> Sheet<'a> {
-    /// The aspect with the given [`crate::aspect::Aspect::id`]. `None` if there is none, and on a slice of a
-    /// robot that nothing else bounds.
-    pub fn new(analysis: &'a Analysis, id: usize) -> Option<Self> {
-        let (class, _) = analysis.aspect(id)?;
+    /// The aspect as a function. `None` if there is no such one, and on a slice of a robot that nothing else
+    /// bounds.
+    pub fn new(analysis: &'a Analysis, aspect: AspectId) -> Option<Self> {
+        let (class, _) = analysis.aspect(aspect)?;
         let Analysis { robot, window, classes, .. } = analysis;
-        let entry = &classes[class];
+        let entry = &classes[class.index()];
         let alone = entry.aspects.len() == 1;
-        let belongs = (!alone)
-            .then(|| -> Belongs<'a> { Box::new(move |pose| analysis.aspect_at(class, pose) == Some(id)) });
+        let belongs = (!alone).then(|| -> Belongs<'a> {
+            Box::new(move |pose| analysis.aspect_at(pose, class) == Some(aspect))
+        });
         let whole = if analysis.fixed.is_empty() { None } else { Some(robot.workspace_window().ok()?) };
         Some(Self { whole, ..Self::of(robot, window, (entry.mode, entry.det_a), belongs) })
     }

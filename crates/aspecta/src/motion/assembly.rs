@@ -8,13 +8,13 @@ use super::between;
 use super::modes::Route;
 use super::plan::refusal::aspect_at;
 use super::plan::{Plan, PlanOptions, Planner};
-use crate::aspect::{Analysis, DetSign};
+use crate::aspect::{Analysis, AspectId, DetSign};
 use crate::paving::Control;
 use aspecta_kinematics::Kinematics;
 use aspecta_kinematics::cusps::{Cusp, CuspError, Options, cusps};
 use aspecta_kinematics::{KinematicsError, Solution, WorkingMode};
-use aspecta_robot::Robot;
 use aspecta_robot::num::without_turns;
+use aspecta_robot::{LegIndex, Robot};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -42,8 +42,8 @@ pub struct AssemblyMode {
     /// Pose, working mode, det A.
     #[serde(flatten)]
     pub solution: Solution,
-    /// The [`crate::aspect::Aspect::id`] (certified); `None` if it is singular, beyond a limit or too near to either to tell.
-    pub aspect: Option<usize>,
+    /// The aspect (certified); `None` if it is singular, beyond a limit or too near to either to tell.
+    pub aspect: Option<AspectId>,
     /// Which of the aspects of its mode and sign of det A, the largest first, and of how many: [`Analysis::rank`].
     pub rank: Option<(usize, usize)>,
 }
@@ -51,8 +51,8 @@ pub struct AssemblyMode {
 /// An aspect with several solutions.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct SharedAspect {
-    /// The [`crate::aspect::Aspect::id`].
-    pub aspect: usize,
+    /// The aspect.
+    pub aspect: AspectId,
     /// [`AssemblyMode::number`]s.
     pub solutions: Vec<usize>,
     /// Whether it is proved that they lie in one: the aspect is proved to be one ([`Analysis::is_one`]), or paths from each to the next are.
@@ -87,7 +87,7 @@ pub fn assembly_modes(analysis: &Analysis, q: &[f64]) -> Result<AssemblyModes, K
     let mode = |(k, solution): (usize, Solution)| {
         let sign = DetSign::of(solution.det_a);
         let class = analysis.class_of(solution.mode, sign).filter(|_| solution.within_limits);
-        let aspect = class.and_then(|class| aspect_at(analysis, class, &solution.pose));
+        let aspect = class.and_then(|class| aspect_at(analysis, &solution.pose, class));
         let rank = aspect.and_then(|id| analysis.rank(id));
         AssemblyMode { number: k + 1, solution, aspect, rank }
     };
@@ -99,7 +99,7 @@ pub fn assembly_modes(analysis: &Analysis, q: &[f64]) -> Result<AssemblyModes, K
 
 /// The aspects with several solutions.
 fn shared(analysis: &Analysis, solutions: &[AssemblyMode]) -> Vec<SharedAspect> {
-    let mut by_aspect: BTreeMap<usize, Vec<&AssemblyMode>> = BTreeMap::new();
+    let mut by_aspect: BTreeMap<AspectId, Vec<&AssemblyMode>> = BTreeMap::new();
     for solution in solutions {
         if let Some(aspect) = solution.aspect {
             by_aspect.entry(aspect).or_default().push(solution);
@@ -108,7 +108,7 @@ fn shared(analysis: &Analysis, solutions: &[AssemblyMode]) -> Vec<SharedAspect> 
     let mut planner = Planner::new(analysis);
     let shortest = PlanOptions { weight: 0.0, ..PlanOptions::default() };
     let mut are_joined =
-        |a: &Solution, b: &Solution| planner.plan(a.mode, &a.pose, &b.pose, &shortest).is_ok();
+        |a: &Solution, b: &Solution| planner.plan(&a.pose, &b.pose, a.mode, &shortest).is_ok();
     let several = by_aspect.into_iter().filter(|(_, members)| members.len() > 1);
     let entry = several.map(|(aspect, members)| {
         let mut pairs = members.windows(2);
@@ -137,8 +137,8 @@ pub struct Fold {
 /// A cusp that a closed motion of the joints goes round.
 #[derive(Clone, Debug, Serialize)]
 pub struct CuspRound {
-    /// The joint held to find it (from 1), at its mean along the motion.
-    pub held: usize,
+    /// The joint held to find it, by its leg, at its mean along the motion.
+    pub held: LegIndex,
     /// The cusp (certified) in that slice of the joint space.
     pub cusp: Cusp,
     /// How often the motion, projected onto the slice, goes round it (counter-clockwise).
@@ -196,12 +196,12 @@ pub fn cusps_round(robot: &Robot, plan: &Plan, control: &Control<'_>) -> Result<
         return Ok(Vec::new());
     };
     let mean = 0.5 * (range(held).0 + range(held).1);
-    let options = Options { fix: vec![(held, mean)], mode: Some(plan.mode), boxes: None };
+    let options = Options { fix: vec![(LegIndex::new(held), mean)], mode: Some(plan.mode), boxes: None };
     let others: Vec<usize> = (0..robot.dof()).filter(|&j| j != held).collect();
     let &[a, b] = &others[..] else { return Ok(Vec::new()) };
     let round = |cusp: Cusp| {
         let turns = winding(path.iter().map(|q| [q[a] - cusp.q[a], q[b] - cusp.q[b]]));
-        (turns != 0).then_some(CuspRound { held: held + 1, cusp, turns })
+        (turns != 0).then_some(CuspRound { held: LegIndex::new(held), cusp, turns })
     };
     Ok(cusps(robot, &options, control)?.cusps.into_iter().filter_map(round).collect())
 }

@@ -6,14 +6,14 @@
 //! the other posture, and det A keeps its sign all the while, which det A does with every crossing: aspects
 //! of different signs are never joined so.
 
-use crate::aspect::{Analysis, DetSign, Place};
+use crate::aspect::{Analysis, AspectId, ClassId, DetSign, Place};
 use aspecta_kinematics::constraints::{Demand, Margins, measures};
 use aspecta_kinematics::modal::closures;
 use aspecta_kinematics::path::curve::{Along, Curve, along};
 use aspecta_kinematics::placement::Placement;
 use aspecta_kinematics::{WorkingMode, for_platform};
 use aspecta_robot::num::Jet;
-use aspecta_robot::{Robot, work};
+use aspecta_robot::{LegIndex, Robot, work};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -27,14 +27,14 @@ const TRIED: usize = 40;
 /// A configuration in which the robot can change one leg's posture.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Crossing {
-    /// The leg, from 1.
-    pub leg: usize,
+    /// The leg.
+    pub leg: LegIndex,
     /// The modes on both sides.
     pub modes: [WorkingMode; 2],
     /// The sign of det A on both.
     pub det_a: DetSign,
-    /// The [`crate::aspect::Aspect::id`] of the aspects on both (certified).
-    pub aspects: [usize; 2],
+    /// The aspects on both (certified).
+    pub aspects: [AspectId; 2],
     /// The pose at which the leg is in its serial singularity. Numerical.
     pub pose: Vec<f64>,
     /// A pose in both aspects; on the straight segment from here to `beyond`, which runs through `pose`, the
@@ -50,17 +50,21 @@ pub struct Crossing {
 /// aspect numbers and leg. That there is no other is not proved.
 pub fn crossings(analysis: &Analysis) -> Vec<Crossing> {
     let classes = &analysis.classes;
-    let pairs = |j: usize| {
+    let pairs = |leg: LegIndex| {
         (0..classes.len()).flat_map(move |a| (a + 1..classes.len()).map(move |b| (a, b))).filter(
             move |&(a, b)| {
-                classes[a].mode.with_other_posture(j) == classes[b].mode
+                classes[a].mode.with_other_posture(leg) == classes[b].mode
                     && classes[a].det_a == classes[b].det_a
             },
         )
     };
     let legs = (0..analysis.robot.dof()).filter(|&j| analysis.robot.legs[j].actuator.postures() == 2);
-    let all: Vec<Side> =
-        legs.flat_map(|leg| pairs(leg).map(move |classes| Side { analysis, leg, classes })).collect();
+    let legs = legs.map(LegIndex::new);
+    let all: Vec<Side> = legs
+        .flat_map(|leg| {
+            pairs(leg).map(move |(a, b)| Side { analysis, leg, classes: (ClassId::new(a), ClassId::new(b)) })
+        })
+        .collect();
     let mut found: Vec<Crossing> =
         work::flat_map(&all, |side| for_platform!(analysis.robot.platform, between(side)));
     found.sort_by_key(|crossing| (crossing.aspects, crossing.leg));
@@ -73,7 +77,7 @@ impl Crossing {
     /// but for that leg's own.
     pub fn is_proved(&self, robot: &Robot, margins: Margins) -> bool {
         let class = Demand::class(self.modes[0], self.det_a.factor());
-        let demand = Demand { crossing: Some(self.leg - 1), margins, ..class };
+        let demand = Demand { crossing: Some(self.leg), margins, ..class };
         let way = Curve::segment(&self.inside, &self.beyond);
         matches!(along(robot, &demand, &way, EFFORT), Along::Crossed { .. })
     }
@@ -82,8 +86,8 @@ impl Crossing {
 /// Two classes that differ in one leg.
 struct Side<'a> {
     analysis: &'a Analysis,
-    leg: usize,
-    classes: (usize, usize),
+    leg: LegIndex,
+    classes: (ClassId, ClassId),
 }
 
 /// A pose at the leg's serial singularity, the way out there (per coordinate), and its clearance.
@@ -94,7 +98,7 @@ struct Candidate<const N: usize> {
 }
 
 fn between<const D: usize, const N: usize>(side: &Side<'_>) -> Vec<Crossing> {
-    let mut by_aspects: BTreeMap<[usize; 2], Vec<Candidate<N>>> = BTreeMap::new();
+    let mut by_aspects: BTreeMap<[AspectId; 2], Vec<Candidate<N>>> = BTreeMap::new();
     for cell in side.analysis.cells(side.classes.0) {
         let centre: [f64; N] = std::array::from_fn(|k| 0.5 * (cell.lo[k] + cell.hi[k]));
         let near =
@@ -104,7 +108,7 @@ fn between<const D: usize, const N: usize>(side: &Side<'_>) -> Vec<Crossing> {
             by_aspects.entry(aspects).or_default().push(found);
         }
     }
-    let best = |(aspects, mut candidates): ([usize; 2], Vec<Candidate<N>>)| {
+    let best = |(aspects, mut candidates): ([AspectId; 2], Vec<Candidate<N>>)| {
         candidates.sort_by(|a, b| b.clearance.total_cmp(&a.clearance));
         let proved = candidates.into_iter().take(TRIED).find_map(|c| side.prove::<D, N>(&c, aspects));
         proved.map(|crossing| side.improve::<D, N>(crossing))
@@ -118,11 +122,11 @@ impl Side<'_> {
     }
 
     fn mode(&self) -> WorkingMode {
-        self.analysis.classes[self.classes.0].mode
+        self.analysis.classes[self.classes.0.index()].mode
     }
 
     fn sign(&self) -> i8 {
-        self.analysis.classes[self.classes.0].det_a.factor()
+        self.analysis.classes[self.classes.0.index()].det_a.factor()
     }
 
     /// Width of the window along coordinate k: what lengths are counted in here.
@@ -166,7 +170,7 @@ impl Side<'_> {
             x
         });
         let placement = Placement::<_, D>::at(self.robot().platform, &x);
-        let reach = closures::<_, D, N>(self.robot(), &placement)[self.leg].closure.reach;
+        let reach = closures::<_, D, N>(self.robot(), &placement)[self.leg.index()].closure.reach;
         (reach.value, reach.gradient)
     }
 
@@ -174,7 +178,7 @@ impl Side<'_> {
     fn clearance<const D: usize, const N: usize>(&self, x: &[f64; N]) -> f64 {
         let placement = Placement::<f64, D>::at(self.robot().platform, x);
         let (parallel, serial) = measures::<f64, D, N>(self.robot(), &placement, self.mode());
-        let others = (0..N).filter(|&j| j != self.leg).map(|j| serial[j]).fold(1.0, f64::min);
+        let others = (0..N).filter(|&j| j != self.leg.index()).map(|j| serial[j]).fold(1.0, f64::min);
         let clearance = (parallel * f64::from(self.sign())).min(others);
         if clearance.is_nan() { 0.0 } else { clearance }
     }
@@ -187,13 +191,13 @@ impl Side<'_> {
     }
 
     /// The aspects that meet at a candidate, where a pose next to it lies in cells of both.
-    fn aspects_at<const N: usize>(&self, at: &Candidate<N>) -> Option<[usize; 2]> {
+    fn aspects_at<const N: usize>(&self, at: &Candidate<N>) -> Option<[AspectId; 2]> {
         self.insets(at).find_map(|x| self.aspects_of(&x))
     }
 
     /// The aspects of both classes that a pose certainly lies in.
-    fn aspects_of(&self, pose: &[f64]) -> Option<[usize; 2]> {
-        let of = |class: usize| match self.analysis.locate(class, pose) {
+    fn aspects_of(&self, pose: &[f64]) -> Option<[AspectId; 2]> {
+        let of = |class: ClassId| match self.analysis.locate(pose, class) {
             Place::Inside(id) => Some(id),
             Place::Undecided | Place::Outside => None,
         };
@@ -203,16 +207,16 @@ impl Side<'_> {
     fn prove<const D: usize, const N: usize>(
         &self,
         at: &Candidate<N>,
-        aspects: [usize; 2],
+        aspects: [AspectId; 2],
     ) -> Option<Crossing> {
         let inside = self.insets(at).find(|x| self.aspects_of(x) == Some(aspects))?;
         // As far out again as it was in.
         let beyond: [f64; N] = std::array::from_fn(|k| 2.0 * at.pose[k] - inside[k]);
         let window = &self.analysis.window;
         let crossing = Crossing {
-            leg: self.leg + 1,
+            leg: self.leg,
             modes: [self.mode(), self.mode().with_other_posture(self.leg)],
-            det_a: self.analysis.classes[self.classes.0].det_a,
+            det_a: self.analysis.classes[self.classes.0.index()].det_a,
             aspects,
             pose: at.pose.to_vec(),
             inside: inside.to_vec(),

@@ -3,11 +3,11 @@
 use super::crossing::{Crossing, crossings};
 use super::plan::refusal::{aspect_at, sign_at, word};
 use super::plan::{End, PlanOptions, Planner, Refusal};
-use crate::aspect::{Analysis, Count, DetSign};
+use crate::aspect::{Analysis, AspectId, Count, DetSign};
 use aspecta_kinematics::constraints::Margins;
 use aspecta_robot::{Robot, Window, WorkingMode};
 use serde::Serialize;
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 
 pub use super::route::Route;
 
@@ -25,14 +25,14 @@ pub struct ModeGraph {
     pub crossings: Vec<Crossing>,
     /// Which aspects can be reached from one another: sets of [`GraphAspect::id`], ascending. That the members of a set are joined is
     /// proved where each of them is proved to be one ([`ModeGraph::is_proved`]). Aspects of different signs of det A are in different sets: proved too. That sets of one sign are not joined is not.
-    pub groups: Vec<Vec<usize>>,
+    pub groups: Vec<Vec<AspectId>>,
 }
 
 /// An aspect in the graph.
 #[derive(Clone, Debug, Serialize)]
 pub struct GraphAspect {
-    /// [`crate::aspect::Aspect::id`].
-    pub id: usize,
+    /// Its number in the analysis.
+    pub id: AspectId,
     /// The working mode.
     pub mode: WorkingMode,
     /// The sign of det A.
@@ -81,9 +81,9 @@ impl ModeGraph {
             crossings: crossings(analysis),
             groups: Vec::new(),
         };
-        let mut left: Vec<usize> = graph.aspects.iter().map(|aspect| aspect.id).collect();
+        let mut left: Vec<AspectId> = graph.aspects.iter().map(|aspect| aspect.id).collect();
         while let Some(&first) = left.first() {
-            let group: Vec<usize> =
+            let group: Vec<AspectId> =
                 left.iter().copied().filter(|&id| graph.way(first, id).is_some()).collect();
             left.retain(|id| !group.contains(id));
             graph.groups.push(group);
@@ -92,37 +92,41 @@ impl ModeGraph {
     }
 
     /// Whether it is proved that a group hangs together: its aspects are joined by proved crossings, and each of them is proved to be one.
-    pub fn is_proved(&self, group: &[usize]) -> bool {
+    pub fn is_proved(&self, group: &[AspectId]) -> bool {
         self.aspects.iter().filter(|aspect| group.contains(&aspect.id)).all(|aspect| aspect.is_one)
     }
 
     /// The crossings (by index) from an aspect to another: as few as possible, and of those ways the one whose least clearance is greatest.
-    pub fn way(&self, from: usize, to: usize) -> Option<Vec<usize>> {
+    /// `None` if no crossings lead there, or an aspect is not in the graph.
+    pub fn way(&self, from: AspectId, to: AspectId) -> Option<Vec<usize>> {
         self.way_over(from, to, |_| true)
     }
 
     /// [`ModeGraph::way`] over some crossings only, by index.
-    fn way_over(&self, from: usize, to: usize, is_open: impl Fn(usize) -> bool) -> Option<Vec<usize>> {
+    fn way_over(&self, from: AspectId, to: AspectId, is_open: impl Fn(usize) -> bool) -> Option<Vec<usize>> {
+        if [from, to].iter().any(|end| self.aspects.iter().all(|aspect| aspect.id != *end)) {
+            return None;
+        }
         // Per aspect: how many crossings away, the least clearance on the way, and the last crossing.
-        let mut best: Vec<Option<(usize, f64, usize)>> =
-            vec![None; self.aspects.iter().map(|a| a.id + 1).max()?];
-        best[from] = Some((0, f64::INFINITY, usize::MAX));
+        let mut best: BTreeMap<AspectId, (usize, f64, usize)> = BTreeMap::new();
+        best.insert(from, (0, f64::INFINITY, usize::MAX));
         let mut open = VecDeque::from([from]);
         while let Some(here) = open.pop_front() {
-            let Some((count, least, _)) = best[here] else { continue };
+            let Some(&(count, least, _)) = best.get(&here) else { continue };
             for (k, crossing) in self.crossings.iter().enumerate() {
                 let Some(there) = crossing.other_side(here).filter(|_| is_open(k)) else { continue };
                 let least = least.min(crossing.clearance);
-                let better = best[there].is_none_or(|(n, c, _)| n > count + 1 || n == count + 1 && c < least);
+                let better =
+                    best.get(&there).is_none_or(|&(n, c, _)| n > count + 1 || n == count + 1 && c < least);
                 if better {
-                    best[there] = Some((count + 1, least, k));
+                    best.insert(there, (count + 1, least, k));
                     open.push_back(there);
                 }
             }
         }
         let (mut way, mut at) = (Vec::new(), to);
         while at != from {
-            let (_, _, crossing) = best[at]?;
+            let &(_, _, crossing) = best.get(&at)?;
             way.push(crossing);
             at = self.crossings[crossing].other_side(at)?;
         }
@@ -133,7 +137,7 @@ impl ModeGraph {
 
 impl Crossing {
     /// The aspect on the other side of `aspect`, if it is on one.
-    pub fn other_side(&self, aspect: usize) -> Option<usize> {
+    pub fn other_side(&self, aspect: AspectId) -> Option<AspectId> {
         match self.aspects {
             [a, b] if a == aspect => Some(b),
             [a, b] if b == aspect => Some(a),
@@ -173,10 +177,10 @@ pub enum NoRoute {
         if .margins.are_any() { " with these margins" } else { "" }
     )]
     NotFound {
-        /// The [`crate::aspect::Aspect::id`] of the start.
-        start: usize,
+        /// The aspect of the start.
+        start: AspectId,
         /// The aspect of the goal.
-        goal: usize,
+        goal: AspectId,
         /// The margins asked for.
         margins: Margins,
     },
@@ -253,8 +257,8 @@ impl Planner<'_> {
         let (mut here, mut at) = (start.pose.to_vec(), start.mode);
         let mut route = Route { stretches: Vec::new(), crossings: Vec::new() };
         for crossing in way.into_iter().map(|k| &graph.crossings[k]) {
-            let plan = self.plan(at, &here, &crossing.inside, options)?;
-            at = at.with_other_posture(crossing.leg - 1);
+            let plan = self.plan(&here, &crossing.inside, at, options)?;
+            at = at.with_other_posture(crossing.leg);
             // Angles go on where the plan has brought them.
             here = plan.waypoints[plan.waypoints.len() - 1].clone();
             let crossing = crossing.turned_to(&here);
@@ -264,12 +268,16 @@ impl Planner<'_> {
             route.crossings.push(crossing);
             route.stretches.push(plan);
         }
-        route.stretches.push(self.plan(at, &here, goal.pose, options)?);
+        route.stretches.push(self.plan(&here, goal.pose, at, options)?);
         Ok(route)
     }
 
     /// The aspects of both ends.
-    fn aspects_of(&self, start: Configuration<'_>, goal: Configuration<'_>) -> Result<[usize; 2], NoRoute> {
+    fn aspects_of(
+        &self,
+        start: Configuration<'_>,
+        goal: Configuration<'_>,
+    ) -> Result<[AspectId; 2], NoRoute> {
         let analysis = self.analysis();
         let unknown = |at: &Configuration<'_>| analysis.classes.iter().all(|class| class.mode != at.mode);
         if let Some(at) = [start, goal].iter().find(|at| unknown(at)) {
@@ -278,7 +286,7 @@ impl Planner<'_> {
         let sign = check_ends(&analysis.robot, &analysis.window, [start, goal])?;
         let aspect = |end, at: Configuration<'_>| {
             let class = analysis.class_of(at.mode, sign).ok_or(Refusal::Mode(at.mode))?;
-            aspect_at(analysis, class, at.pose).ok_or(NoRoute::Unknown(end))
+            aspect_at(analysis, at.pose, class).ok_or(NoRoute::Unknown(end))
         };
         Ok([aspect(End::Start, start)?, aspect(End::Goal, goal)?])
     }
@@ -294,7 +302,7 @@ pub fn check_ends(
     window: &Window,
     [start, goal]: [Configuration<'_>; 2],
 ) -> Result<DetSign, NoRoute> {
-    let sign = |end, at: Configuration<'_>| sign_at(robot, window, at.mode, (end, at.pose));
+    let sign = |end, at: Configuration<'_>| sign_at(robot, window, (end, at.pose), at.mode);
     let signs = [sign(End::Start, start)?, sign(End::Goal, goal)?];
     if signs[0] == signs[1] { Ok(signs[0]) } else { Err(NoRoute::OppositeSigns(signs[0])) }
 }

@@ -107,7 +107,7 @@ impl Crossing {
     /// Returns the samples to the singularity in `mode` and back in the other. The leg's joint goes like the root of the distance left, so its samples
     /// are even in that root.
     fn samples(&self, mode: WorkingMode) -> Vec<(Vec<f64>, WorkingMode)> {
-        let other = mode.with_other_posture(self.leg - 1);
+        let other = mode.with_other_posture(self.leg);
         let sample = |i: usize| {
             let u = 1.0 - i as f64 / SAMPLES as f64;
             (between(&self.inside, &self.pose, 1.0 - u * u), if u >= 0.0 { mode } else { other })

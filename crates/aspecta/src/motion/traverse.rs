@@ -8,7 +8,7 @@ use super::between;
 use super::modes::ModeGraph;
 use super::plan::refusal::aspect_at;
 use super::plan::{PlanOptions, Planner};
-use crate::aspect::{Analysis, DetSign};
+use crate::aspect::{Analysis, AspectClass, AspectId, ClassId, DetSign};
 use aspecta_kinematics::constraints::{self, Constraint, Constraints, Demand};
 use aspecta_kinematics::modal::closures;
 use aspecta_kinematics::path::curve::{Along, Curve, along};
@@ -42,8 +42,8 @@ pub enum PoseSet {
 pub enum Holds {
     /// All of it lies in one aspect (certified).
     Whole {
-        /// The [`crate::aspect::Aspect::id`]; `None` if the set is proved to lie in one, but which is not known.
-        aspect: Option<usize>,
+        /// The aspect; `None` if the set is proved to lie in one, but which is not known.
+        aspect: Option<AspectId>,
     },
     /// It does not (certified): a pose of the set lies outside the class, or in another aspect of it than another pose of the set: this one, or
     /// on a path one next to it.
@@ -91,8 +91,8 @@ pub struct Traversability {
 /// Aspects that can be reached from one another through changes of working mode.
 #[derive(Clone, Debug, Serialize)]
 pub struct LinkedAspects {
-    /// [`crate::aspect::Aspect::id`]s, ascending.
-    pub aspects: Vec<usize>,
+    /// The aspects, by number.
+    pub aspects: Vec<AspectId>,
     /// Whether that is proved: [`ModeGraph::is_proved`].
     pub certified: bool,
 }
@@ -125,11 +125,11 @@ pub fn traversability(
     set: PoseSet,
 ) -> Result<Traversability, KinematicsError> {
     set.check(&analysis.robot)?;
-    let verdict = |k: usize| {
-        let class = &analysis.classes[k];
-        ClassHolds { mode: class.mode, det_a: class.det_a, holds: holds(analysis, k, &set) }
+    let verdict = |(k, class): (usize, &AspectClass)| {
+        let holds = holds(analysis, &set, ClassId::new(k));
+        ClassHolds { mode: class.mode, det_a: class.det_a, holds }
     };
-    let classes = (0..analysis.classes.len()).map(verdict).collect();
+    let classes = analysis.classes.iter().enumerate().map(verdict).collect();
     let groups = match (&set, graph) {
         (PoseSet::Poses(poses), Some(graph)) => linked(analysis, graph, poses),
         _ => Vec::new(),
@@ -171,8 +171,8 @@ impl PoseSet {
     }
 }
 
-fn holds(analysis: &Analysis, class: usize, set: &PoseSet) -> Holds {
-    let entry = &analysis.classes[class];
+fn holds(analysis: &Analysis, set: &PoseSet, class: ClassId) -> Holds {
+    let entry = &analysis.classes[class.index()];
     let demand = Demand::class(entry.mode, entry.det_a.factor());
     let robot = &analysis.robot;
     if robot.window.iter().any(Option::is_some)
@@ -185,22 +185,22 @@ fn holds(analysis: &Analysis, class: usize, set: &PoseSet) -> Holds {
             let whole = for_platform!(robot.platform, over_box(robot, &demand, ranges));
             whole.unwrap_or_else(|| {
                 let centre: Vec<f64> = ranges.iter().map(|r| 0.5 * (r.0 + r.1)).collect();
-                Holds::Whole { aspect: aspect_at(analysis, class, &centre) }
+                Holds::Whole { aspect: aspect_at(analysis, &centre, class) }
             })
         }
-        PoseSet::Poses(_) | PoseSet::Paths(_) => over_parts(analysis, class, &demand, &set.parts()),
+        PoseSet::Poses(_) | PoseSet::Paths(_) => over_parts(analysis, &set.parts(), class, &demand),
     }
 }
 
 /// Every part proved to stay in the class, and all in one aspect.
-fn over_parts(analysis: &Analysis, class: usize, demand: &Demand, parts: &[Vec<Vec<f64>>]) -> Holds {
+fn over_parts(analysis: &Analysis, parts: &[Vec<Vec<f64>>], class: ClassId, demand: &Demand) -> Holds {
     let mut planner = Planner::new(analysis);
-    let mut common: Option<(&[f64], Option<usize>)> = None;
+    let mut common: Option<(&[f64], Option<AspectId>)> = None;
     for part in parts.iter().filter(|part| !part.is_empty()) {
         if let Some(failed) = leaves_class(&analysis.robot, demand, part) {
             return failed;
         }
-        let aspect = aspect_at(analysis, class, &part[0]);
+        let aspect = aspect_at(analysis, &part[0], class);
         let Some((first, known)) = common else {
             common = Some((&part[0], aspect));
             continue;
@@ -212,7 +212,7 @@ fn over_parts(analysis: &Analysis, class: usize, demand: &Demand, parts: &[Vec<V
             // Where that is not proved of the aspect, a path may prove it of the poses.
             _ => {
                 let shortest = PlanOptions { weight: 0.0, ..PlanOptions::default() };
-                if planner.plan(demand.mode, first, &pose, &shortest).is_err() {
+                if planner.plan(first, &pose, demand.mode, &shortest).is_err() {
                     return Holds::Undecided { pose };
                 }
             }
@@ -306,16 +306,17 @@ fn over_part<const D: usize, const N: usize>(robot: &Robot, demand: &Demand, par
 
 /// The groups of which every pose lies in at least one aspect.
 fn linked(analysis: &Analysis, graph: &ModeGraph, poses: &[Vec<f64>]) -> Vec<LinkedAspects> {
-    let aspects_of = |pose: &Vec<f64>| -> Vec<usize> {
-        let of = |k: usize| match holds(analysis, k, &PoseSet::Poses(vec![pose.clone()])) {
+    let aspects_of = |pose: &Vec<f64>| -> Vec<AspectId> {
+        let set = PoseSet::Poses(vec![pose.clone()]);
+        let of = |k: usize| match holds(analysis, &set, ClassId::new(k)) {
             Holds::Whole { aspect } => aspect,
             Holds::NotWhole { .. } | Holds::Undecided { .. } => None,
         };
         (0..analysis.classes.len()).filter_map(of).collect()
     };
-    let all: Vec<Vec<usize>> = poses.iter().map(aspects_of).collect();
-    let holds = |group: &&Vec<usize>| all.iter().all(|of| of.iter().any(|id| group.contains(id)));
+    let all: Vec<Vec<AspectId>> = poses.iter().map(aspects_of).collect();
+    let holds = |group: &&Vec<AspectId>| all.iter().all(|of| of.iter().any(|id| group.contains(id)));
     let linked =
-        |group: &Vec<usize>| LinkedAspects { aspects: group.clone(), certified: graph.is_proved(group) };
+        |group: &Vec<AspectId>| LinkedAspects { aspects: group.clone(), certified: graph.is_proved(group) };
     graph.groups.iter().filter(holds).map(linked).collect()
 }

@@ -166,8 +166,9 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
                 // Looked at in poses already; in a leg's own coordinates being in the posture is one of its
                 // limits.
                 Kind::Serial(j) => {
-                    let Some(fold) = &legs[j].fold else { continue };
-                    let in_posture = |mode: WorkingMode| if mode.sign(j) > 0 { fold.b } else { -fold.b };
+                    let Some(fold) = &legs[j.index()].fold else { continue };
+                    let in_posture =
+                        |mode: WorkingMode| if mode.sign(j.index()) > 0 { fold.b } else { -fold.b };
                     known.note(self.modes, wanted, LegSet::of(j), in_posture);
                 }
                 Kind::Limit => {

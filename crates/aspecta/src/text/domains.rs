@@ -1,7 +1,7 @@
 //! The basic regions and uniqueness domains of an aspect for people.
 
 use super::{Align, Table, brief};
-use crate::domain::{Coincidence, Domains};
+use crate::domain::{Coincidence, Domains, RegionId};
 use aspecta_robot::num::count;
 use std::fmt::{self, Write};
 
@@ -146,7 +146,7 @@ fn uniqueness(out: &mut dyn Write, found: &Domains, advice: &DomainsAdvice) -> f
     let mut table = Table::new(names);
     for domain in found.uniqueness.iter().take(LISTED) {
         let of_workspace = domain.of_workspace.map_or(String::new(), percent);
-        let listed = domain.regions.iter().take(12).map(usize::to_string).collect::<Vec<_>>().join(" ");
+        let listed = domain.regions.iter().take(12).map(RegionId::to_string).collect::<Vec<_>>().join(" ");
         let dots = if domain.regions.len() > 12 { " …" } else { "" };
         table.row([
             brief(domain.measure),
@@ -192,7 +192,7 @@ fn images(out: &mut dyn Write, found: &Domains, advice: &DomainsAdvice) -> fmt::
     )?;
     let (unmatched, is_slice) = (unmatched(found), found.window.held().next().is_some());
     if !is_slice && !unmatched.is_empty() {
-        let listed = unmatched.iter().take(LISTED).map(usize::to_string).collect::<Vec<_>>().join(" ");
+        let listed = unmatched.iter().take(LISTED).map(RegionId::to_string).collect::<Vec<_>>().join(" ");
         writeln!(
             out,
             "not as many coincident images as solutions, so the uniqueness domains are not sure (more {cells}): regions {listed}"
@@ -230,7 +230,7 @@ fn failures(out: &mut dyn Write, found: &Domains) -> fmt::Result {
 }
 
 /// Says something of pairs of regions, if there are any.
-fn pairs(out: &mut dyn Write, what: &str, pairs: &[(usize, usize)]) -> fmt::Result {
+fn pairs(out: &mut dyn Write, what: &str, pairs: &[(RegionId, RegionId)]) -> fmt::Result {
     if pairs.is_empty() {
         return Ok(());
     }
@@ -241,9 +241,9 @@ fn pairs(out: &mut dyn Write, what: &str, pairs: &[(usize, usize)]) -> fmt::Resu
 
 /// The regions whose image does not meet those of just so many others that each solution has one: some are
 /// not resolved, or neighbours are taken for one.
-fn unmatched(found: &Domains) -> Vec<usize> {
-    let holds = |c: &&Coincidence, number: usize| [c.regions.0, c.regions.1].contains(&number);
-    let partners = |number: usize| found.coincidences.iter().filter(|c| holds(c, number)).count();
+fn unmatched(found: &Domains) -> Vec<RegionId> {
+    let holds = |c: &&Coincidence, number: RegionId| [c.regions.0, c.regions.1].contains(&number);
+    let partners = |number: RegionId| found.coincidences.iter().filter(|c| holds(c, number)).count();
     let regions = found.regions.iter().filter(|r| partners(r.number) + 1 != usize::from(r.solutions));
     regions.map(|region| region.number).collect()
 }

@@ -2,7 +2,7 @@
 
 use crate::aspect::{Analysis, Doubt};
 use aspecta_kinematics::parallel_rods::ParallelRods;
-use aspecta_robot::Robot;
+use aspecta_robot::{LegIndex, Robot};
 
 /// A coordinate of the place of a doubt.
 pub struct Coordinate {
@@ -26,7 +26,7 @@ impl Coordinate {
 pub fn place(robot: &Robot, doubt: &Doubt) -> Vec<Coordinate> {
     let length = &robot.length_unit;
     let unit = |angle: bool| Some(if angle { "rad" } else { length }.to_owned());
-    let own = |leg: usize| [(format!("q{leg}"), unit(true)), ("p".into(), None), ("w".into(), None)];
+    let own = |leg: LegIndex| [(format!("q{leg}"), unit(true)), ("p".into(), None), ("w".into(), None)];
     let own = doubt.fold.map(own).into_iter().flatten().take(robot.platform.space());
     let pose = robot.platform.coordinates().iter().map(|c| (c.name.to_owned(), unit(c.angle)));
     let names = own.clone().chain(pose.skip(own.count()));
@@ -42,7 +42,7 @@ pub const ARCHITECTURE: &str = "det A vanishes at every pose that was looked at 
 pub fn reasons(analysis: &Analysis) -> Vec<String> {
     let unit = &analysis.robot.length_unit;
     let reason = |rods: &ParallelRods| {
-        let legs = rods.legs.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
+        let legs = rods.legs.iter().map(LegIndex::to_string).collect::<Vec<_>>().join(", ");
         let decimals = (4 - rods.radius.log10().floor() as i32).max(0) as usize;
         // Adding zero turns a rounded −0 into 0.
         let scale = 10f64.powi(decimals as i32);
@@ -61,7 +61,7 @@ pub fn reasons(analysis: &Analysis) -> Vec<String> {
         return Vec::new();
     }
     let folds = (!analysis.uncharted_folds.is_empty()).then(|| {
-        let legs: Vec<String> = analysis.uncharted_folds.iter().map(usize::to_string).collect();
+        let legs: Vec<String> = analysis.uncharted_folds.iter().map(LegIndex::to_string).collect();
         format!(
             "Two legs can fold at once whose links are equal, or complete each other to half a turn: the platform's joint comes onto the motor's axis, where \
              the motor is free. Leg 1 may fold, but boxes round the orientations in which leg {} does are never decided.",

@@ -194,7 +194,7 @@ mod tests {
         let budget = Budget { depth: Some(7), ..Budget::default() };
         let options = Options { budget, modes: vec![mode], ..Options::default() };
         let analysis = analyze(&robot, &options, &Control::unwatched()).unwrap();
-        let plan = Planner::new(&analysis).plan(mode, &[4.0, 7.0], &[5.0, 6.0], &PlanOptions::default());
+        let plan = Planner::new(&analysis).plan(&[4.0, 7.0], &[5.0, 6.0], mode, &PlanOptions::default());
         let mut plan = plan.unwrap();
         for end in [vec![4.0, 14.0], vec![f64::NAN]] {
             *plan.waypoints.last_mut().unwrap() = end;

@@ -2,7 +2,7 @@
 //! can be trusted, limits, determinism.
 
 use aspecta::Kinematics;
-use aspecta::aspect::{Analysis, DetSign, Options, Place, Reachable, analyze};
+use aspecta::aspect::{Analysis, AspectId, ClassId, DetSign, Options, Place, Reachable, analyze};
 use aspecta::kinematics::WorkingMode;
 use aspecta::num::Interval;
 use aspecta::paving::{Budget, Control};
@@ -81,7 +81,7 @@ fn table_2_of_the_paper() {
     // No two aspects have the same number.
     let mut ids: Vec<_> = analysis.classes.iter().flat_map(|c| c.aspects.iter().map(|a| a.id)).collect();
     ids.sort_unstable();
-    assert_eq!(ids, (1..=10).collect::<Vec<_>>());
+    assert!(ids.into_iter().eq((1..=10).map(AspectId::new)));
 }
 
 fn opposite(a: WorkingMode, b: WorkingMode) -> bool {
@@ -358,13 +358,13 @@ fn locate_counts_angles_modulo_full_turns() {
                 + part(k) * (analysis.window.ranges[k].1 - analysis.window.ranges[k].0)
         };
         let pose = [at(0), at(1), at(2)];
-        for class in 0..2 {
-            let place = analysis.locate(class, &pose);
+        for class in [0, 1].map(ClassId::new) {
+            let place = analysis.locate(&pose, class);
             located += usize::from(matches!(place, Place::Inside(_)));
-            assert_eq!(place, analysis.locate(class, &[pose[0], pose[1], pose[2] - TAU]));
-            assert_eq!(place, analysis.locate(class, &[pose[0], pose[1], pose[2] + TAU]));
+            assert_eq!(place, analysis.locate(&[pose[0], pose[1], pose[2] - TAU], class));
+            assert_eq!(place, analysis.locate(&[pose[0], pose[1], pose[2] + TAU], class));
         }
-        assert_eq!(analysis.locate(0, &[pose[0], pose[1], 0.5]), Place::Outside);
+        assert_eq!(analysis.locate(&[pose[0], pose[1], 0.5], ClassId::new(0)), Place::Outside);
     }
     assert!(located > 20, "{located}");
 }

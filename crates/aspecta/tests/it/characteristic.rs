@@ -1,7 +1,7 @@
 //! Boundaries of aspects and characteristic surfaces (Definition 9), judged by formulas and counts of their own.
 
 use aspecta::Kinematics;
-use aspecta::aspect::{Analysis, AspectClass, DetSign, Options, Place, analyze};
+use aspecta::aspect::{Analysis, AspectClass, AspectId, ClassId, DetSign, Options, Place, analyze};
 use aspecta::domain::boundary::{Boundary, BoundaryError, Face, Simplex};
 use aspecta::domain::characteristic::{Characteristic, CharacteristicError};
 use aspecta::kinematics::constraints::Constraint;
@@ -75,8 +75,10 @@ fn five_bar_boundaries_lie_where_they_say_and_enclose_the_aspects() {
                 for face in vertex.faces.iter().flatten() {
                     match *face {
                         Face::Of(Constraint::Reach(j)) => {
-                            let (_, l, m) = legs[j];
-                            let gap = (spans[j] - (l + m)).abs().min((spans[j] - (l - m).abs()).abs());
+                            let (_, l, m) = legs[j.index()];
+                            let gap = (spans[j.index()] - (l + m))
+                                .abs()
+                                .min((spans[j.index()] - (l - m).abs()).abs());
                             assert!(gap < 1e-7, "H_{j} at {c:?}: {gap}");
                         }
                         Face::Of(Constraint::Det) => {
@@ -140,7 +142,8 @@ fn three_rrr_boundary_is_closed_and_lies_where_it_says() {
         for face in vertex.faces.iter().flatten() {
             match *face {
                 Face::Of(Constraint::Reach(j)) => {
-                    let span = (ends[j][0] - anchors[j][0]).hypot(ends[j][1] - anchors[j][1]);
+                    let span = (ends[j.index()][0] - anchors[j.index()][0])
+                        .hypot(ends[j.index()][1] - anchors[j.index()][1]);
                     assert!((span - 20.0).abs().min(span) < 1e-6, "{span}");
                 }
                 Face::Of(Constraint::Det) => {
@@ -158,9 +161,11 @@ fn three_rrr_boundary_is_closed_and_lies_where_it_says() {
 #[test]
 fn bad_requests_say_what_would_do() {
     let analysis = analysis_of("five-bar", &to_depth(6));
-    let error = Boundary::new(&analysis, 99, 20).unwrap_err();
-    assert!(matches!(error, BoundaryError::NoSuchAspect { id: 99, .. }));
-    assert!(Boundary::new(&analysis, 1, 1).unwrap_err().to_string().contains("choose 4 to 2000"));
+    let error = Boundary::new(&analysis, AspectId::new(99), 20).unwrap_err();
+    assert!(matches!(error, BoundaryError::NoSuchAspect { id, .. } if id == AspectId::new(99)));
+    assert!(
+        Boundary::new(&analysis, AspectId::new(1), 1).unwrap_err().to_string().contains("choose 4 to 2000")
+    );
 }
 
 #[test]
@@ -216,8 +221,8 @@ fn meets(triangle: &[[f64; 3]; 3], d: [f64; 3]) -> bool {
 
 /// How many direct solutions of the joint vector of `pose` lie in the aspect, `pose` being one of them; `None` if it is not, or
 /// the analysis does not tell. Undecided cells belong to the aspect if it is the only one known of its class.
-fn sheets(analysis: &Analysis, class: usize, id: usize, pose: &[f64]) -> Option<usize> {
-    let of = &analysis.classes[class];
+fn sheets(analysis: &Analysis, class: ClassId, id: AspectId, pose: &[f64]) -> Option<usize> {
+    let of = &analysis.classes[class.index()];
     let q = analysis.robot.inverse_in(pose, of.mode).unwrap()?;
     let (mut count, mut itself) = (0, false);
     for s in analysis.robot.direct(&q).unwrap() {
@@ -225,7 +230,7 @@ fn sheets(analysis: &Analysis, class: usize, id: usize, pose: &[f64]) -> Option<
         if s.mode != of.mode || positive != (of.det_a == DetSign::Positive) || !s.within_limits {
             continue;
         }
-        match analysis.locate(class, &s.pose) {
+        match analysis.locate(&s.pose, class) {
             Place::Inside(found) if found != id => continue,
             Place::Inside(_) => {}
             _ if of.aspects.len() == 1 => {}
@@ -241,7 +246,7 @@ fn sheets(analysis: &Analysis, class: usize, id: usize, pose: &[f64]) -> Option<
 /// Returns how many segments there were.
 fn assert_crossings_change_the_number(
     analysis: &Analysis,
-    class: usize,
+    class: ClassId,
     surface: &Characteristic,
     half: f64,
     apart: f64,
@@ -318,9 +323,9 @@ fn three_rrr_characteristic_surface() {
             let rod = (c[0] - anchors[j][0] - 10.0 * q.cos()).hypot(c[1] - anchors[j][1] - 10.0 * q.sin());
             assert!((rod - 10.0).abs() < 1e-7, "{rod} at {vertex:?} {source:?}");
         }
-        assert_ne!(analysis.locate(class, &vertex.pose), Place::Outside);
+        assert_ne!(analysis.locate(&vertex.pose, ClassId::new(class)), Place::Outside);
     }
-    let tested = assert_crossings_change_the_number(&analysis, class, &surface, 0.003, 0.05);
+    let tested = assert_crossings_change_the_number(&analysis, ClassId::new(class), &surface, 0.003, 0.05);
     eprintln!("{tested} crossings");
     assert!(tested >= 50, "{tested} crossings");
 }
@@ -352,7 +357,8 @@ fn three_rpr_characteristic_surfaces() {
             let (q, of) = (lengths(&vertex.pose), lengths(&surface.sources[vertex.source as usize].pose));
             assert!((0..3).all(|j| (q[j] - of[j]).abs() < 1e-8), "{q:?} {of:?}");
         }
-        let tested = assert_crossings_change_the_number(&analysis, class, &surface, 0.003, 0.05);
+        let tested =
+            assert_crossings_change_the_number(&analysis, ClassId::new(class), &surface, 0.003, 0.05);
         eprintln!("{tested} crossings");
         assert!(tested >= 50, "{tested} crossings");
     }

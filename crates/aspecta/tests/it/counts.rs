@@ -5,7 +5,9 @@
 use crate::random::Random;
 use crate::sweep::{Finesse, FiveBar, MODES, Table};
 use aspecta::Kinematics;
-use aspecta::aspect::{Analysis, AnalysisError, AspectClass, DetSign, Options, Place, Sample, analyze};
+use aspecta::aspect::{
+    Analysis, AnalysisError, AspectClass, ClassId, DetSign, Options, Place, Sample, analyze,
+};
 use aspecta::certificate::Claim;
 use aspecta::paving::{Budget, Control, Stop};
 use aspecta::robot::{Leg, Platform, Robot, SliceError, catalogue};
@@ -203,7 +205,7 @@ fn aspects_of_a_spherical_robot_have_poses() {
         let (least, most) = (aspect.measure, aspect.measure + class.undecided);
         assert!(0.25 * measure < least && least < measure && measure < most, "{least} {measure} {most}");
         let Sample { pose, q } = &aspect.sample;
-        assert_eq!(analysis.locate(k, pose), Place::Inside(aspect.id));
+        assert_eq!(analysis.locate(pose, ClassId::new(k)), Place::Inside(aspect.id));
         let state = robot.state(pose, q).unwrap();
         assert_eq!((state.mode, DetSign::of(state.det_a)), (Some(class.mode), class.det_a));
         let within = |(x, (lo, hi)): (&f64, &(f64, f64))| lo <= x && x <= hi;

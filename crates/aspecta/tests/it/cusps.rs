@@ -4,7 +4,7 @@ use aspecta::Kinematics;
 use aspecta::domain::cusps::{Cusp, CuspError, Cusps, Doubt, Options, Proof, cusp_curves, cusps};
 use aspecta::num::Interval;
 use aspecta::paving::Control;
-use aspecta::robot::{Leg, Limit, Platform, Robot};
+use aspecta::robot::{Leg, LegIndex, Limit, Platform, Robot};
 use std::f64::consts::TAU;
 use std::sync::atomic::AtomicBool;
 
@@ -13,7 +13,8 @@ fn search(robot: &Robot, options: &Options) -> Result<Cusps, CuspError> {
 }
 
 fn slice(robot: &Robot, joint: usize, value: f64, mode: &str) -> Cusps {
-    let options = Options { fix: vec![(joint, value)], mode: Some(mode.parse().unwrap()), boxes: None };
+    let options =
+        Options { fix: vec![(LegIndex::new(joint), value)], mode: Some(mode.parse().unwrap()), boxes: None };
     let found = search(robot, &options).unwrap();
     assert!(found.complete && found.proof == Proof::Intervals, "{:?}", found.undecided);
     found
@@ -265,7 +266,7 @@ fn the_3_rrr_has_the_cusps_that_brute_force_finds() {
 #[test]
 fn three_direct_solutions_meet_at_the_cusps_of_a_3_rrr() {
     let robot = three_rrr();
-    let options = Options { fix: vec![(1, 2.0)], ..Options::default() };
+    let options = Options { fix: vec![(LegIndex::new(1), 2.0)], ..Options::default() };
     let found = search(&robot, &options).unwrap();
     assert!(found.complete && found.modes.len() == 8 && !found.cusps.is_empty());
     for cusp in &found.cusps {
@@ -323,7 +324,7 @@ fn cusps_move_with_the_robot() {
 fn platforms_that_do_not_turn_have_none() {
     let none = search(&Robot::resolve("five-bar").unwrap(), &Options::default()).unwrap();
     assert!(none.cusps.is_empty() && none.complete && none.proof == Proof::Quadratic);
-    let fix = vec![(0, 0.3)];
+    let fix = vec![(LegIndex::new(0), 0.3)];
     let none = search(&Robot::resolve("delta").unwrap(), &Options { fix, ..Options::default() }).unwrap();
     assert!(none.cusps.is_empty() && none.complete);
 }
@@ -331,7 +332,7 @@ fn platforms_that_do_not_turn_have_none() {
 #[test]
 fn what_a_budget_leaves_is_undecided_not_dropped() {
     let robot = Robot::resolve("3-rpr").unwrap();
-    let options = Options { fix: vec![(0, 14.98)], boxes: Some(300), ..Options::default() };
+    let options = Options { fix: vec![(LegIndex::new(0), 14.98)], boxes: Some(300), ..Options::default() };
     let found = search(&robot, &options).unwrap();
     assert!(!found.complete && found.boxes <= 300);
     let all = slice(&robot, 0, 14.98, "---");
@@ -349,16 +350,17 @@ fn what_a_budget_leaves_is_undecided_not_dropped() {
 fn options_that_do_not_fit_are_refused() {
     let robot = three_rrr();
     let refused = |fix: &[(usize, f64)]| {
-        search(&robot, &Options { fix: fix.to_vec(), ..Options::default() }).unwrap_err().to_string()
+        let fix = fix.iter().map(|&(j, value)| (LegIndex::new(j), value)).collect();
+        search(&robot, &Options { fix, ..Options::default() }).unwrap_err().to_string()
     };
     assert!(refused(&[]).contains("with 1 of the 3 joints held, not 0"));
     assert!(refused(&[(0, 1.0), (1, 1.0)]).contains("not 2"));
-    assert!(refused(&[(3, 1.0)]).contains("there is no number 3"));
+    assert!(refused(&[(3, 1.0)]).contains("there is no joint 4"));
     assert!(refused(&[(0, f64::NAN)]).contains("is NaN"));
-    let strut = Options { fix: vec![(0, -1.0)], ..Options::default() };
+    let strut = Options { fix: vec![(LegIndex::new(0), -1.0)], ..Options::default() };
     assert!(matches!(search(&Robot::resolve("3-rpr").unwrap(), &strut), Err(CuspError::Value(_))));
     assert!(matches!(search(&Robot::resolve("hexa").unwrap(), &strut), Err(CuspError::Dimension { .. })));
-    let mode = Options { fix: vec![(0, 14.98)], mode: "+++".parse().ok(), boxes: None };
+    let mode = Options { fix: vec![(LegIndex::new(0), 14.98)], mode: "+++".parse().ok(), boxes: None };
     assert!(matches!(search(&Robot::resolve("3-rpr").unwrap(), &mode), Err(CuspError::Mode { .. })));
 }
 

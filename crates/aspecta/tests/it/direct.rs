@@ -7,7 +7,9 @@ use aspecta::Kinematics;
 use aspecta::kinematics::placement::Placement;
 use aspecta::kinematics::{DirectSolutions, KinematicsError, Solution};
 use aspecta::num::Interval;
-use aspecta::robot::{Actuator, BASE_FRAME, Leg, Platform, Prismatic, Revolute, Robot, Strut, point};
+use aspecta::robot::{
+    Actuator, BASE_FRAME, Leg, LegIndex, Platform, Prismatic, Revolute, Robot, Strut, point,
+};
 use nalgebra::DMatrix;
 use std::f64::consts::{PI, TAU};
 
@@ -464,8 +466,14 @@ fn both_poses_of_a_translating_body_are_mirrored_and_opposite() {
 #[test]
 fn input_that_cannot_be_solved_is_a_typed_error() {
     let robot = three_rpr();
-    assert_eq!(robot.direct(&[1.0, -2.0, 3.0]), Err(KinematicsError::StrutLength { leg: 2, value: -2.0 }));
-    assert_eq!(robot.direct(&[0.0, 2.0, 3.0]), Err(KinematicsError::StrutLength { leg: 1, value: 0.0 }));
+    assert_eq!(
+        robot.direct(&[1.0, -2.0, 3.0]),
+        Err(KinematicsError::StrutLength { leg: LegIndex::new(1), value: -2.0 })
+    );
+    assert_eq!(
+        robot.direct(&[0.0, 2.0, 3.0]),
+        Err(KinematicsError::StrutLength { leg: LegIndex::new(0), value: 0.0 })
+    );
     assert!(matches!(robot.direct(&[1.0, 2.0]), Err(KinematicsError::Length { wanted: 3, found: 2, .. })));
     assert!(matches!(robot.direct(&[1.0, 2.0, f64::NAN]), Err(KinematicsError::NotFinite { index: 3, .. })));
     // Absurd sizes overflow: undecided, and said so, never a panic.

@@ -1,8 +1,8 @@
 //! Basic regions, coincident components and uniqueness domains.
 
 use aspecta::Kinematics;
-use aspecta::aspect::{Analysis, DetSign, Options, analyze};
-use aspecta::domain::{DomainError, DomainOptions, Domains, domains};
+use aspecta::aspect::{Analysis, AspectId, ClassId, DetSign, Options, analyze};
+use aspecta::domain::{DomainError, DomainOptions, Domains, RegionId, domains};
 use aspecta::paving::{Budget, Control};
 use aspecta::robot::{Robot, catalogue};
 
@@ -11,9 +11,9 @@ fn analyzed(robot: &Robot, depth: u32) -> Analysis {
     analyze(robot, &Options { budget, ..Options::default() }, &Control::unwatched()).unwrap()
 }
 
-fn partitioned(analysis: &Analysis, id: usize, cells: usize) -> Domains {
+fn partitioned(analysis: &Analysis, id: AspectId, cells: usize) -> Domains {
     let options = DomainOptions { cells, samples: 20_000 };
-    domains(analysis, id, options, &Control::unwatched()).unwrap()
+    domains(analysis, id, &options, &Control::unwatched()).unwrap()
 }
 
 /// What must hold of any partition: Consequence 1 and Theorem 3, on what was computed.
@@ -21,8 +21,8 @@ fn check(analysis: &Analysis, found: &Domains) {
     assert!(found.violations.is_empty(), "{:?}", found.violations);
     assert!(found.complete);
     for c in &found.coincidences {
-        let (a, b) = c.regions;
-        assert_eq!(found.regions[a - 1].solutions, found.regions[b - 1].solutions);
+        let solutions = |region: RegionId| found.regions[region.number() - 1].solutions;
+        assert_eq!(solutions(c.regions.0), solutions(c.regions.1));
         assert!(
             c.shares.is_some_and(|(a, b)| a > 0.95 && b > 0.95),
             "neither disjoint nor coincident: {c:?}"
@@ -59,14 +59,14 @@ fn check(analysis: &Analysis, found: &Domains) {
 fn aspects_of_the_five_bar_are_uniqueness_domains() {
     let analysis = analyzed(&catalogue::find("five-bar").unwrap(), 11);
     assert_eq!(analysis.aspects.low, 10);
-    for id in 1..=10 {
+    for id in (1..=10).map(AspectId::new) {
         let found = partitioned(&analysis, id, 300);
         check(&analysis, &found);
         assert_eq!(found.regions.len(), 1);
         assert_eq!(found.regions[0].solutions, 1);
         assert_eq!(found.uniqueness.len(), 1);
         let (class, aspect) = analysis.aspect(id).unwrap();
-        let most = aspect.measure + analysis.classes[class].undecided;
+        let most = aspect.measure + analysis.classes[class.index()].undecided;
         assert!(0.99 * aspect.measure < found.measure && found.measure < 1.01 * most, "{}", found.measure);
         assert!(found.unresolved.measure < 1e-2 * found.measure, "{:?}", found.unresolved);
     }
@@ -89,7 +89,7 @@ fn points_1_and_3_of_table_4() {
     let [one, three] = points.map(|point| found.region_at(&analysis, &point).unwrap());
     assert_ne!(one, three);
     assert!(found.coincide(one, three));
-    let both = |regions: &[usize]| regions.contains(&one) && regions.contains(&three);
+    let both = |regions: &[RegionId]| regions.contains(&one) && regions.contains(&three);
     assert!(found.uniqueness.iter().all(|domain| !both(&domain.regions)));
     assert!(found.uniqueness.iter().any(|domain| domain.regions.contains(&one)));
     assert!(found.uniqueness.iter().any(|domain| domain.regions.contains(&three)));
@@ -104,7 +104,8 @@ fn regions_of_the_3_rpr() {
     let positive = analysis.classes.iter().position(|c| c.det_a == DetSign::Positive).unwrap();
     let six = robot.direct(&[14.98, 15.38, 12.0]).unwrap();
     assert_eq!(six.iter().filter(|s| s.det_a > 0.0).count(), 3);
-    let here: Vec<_> = six.iter().filter_map(|s| analysis.aspect_at(positive, &s.pose)).collect();
+    let here: Vec<_> =
+        six.iter().filter_map(|s| analysis.aspect_at(&s.pose, ClassId::new(positive))).collect();
     assert!(here.len() == 3 && here.iter().all(|id| *id == here[0]));
     let found = partitioned(&analysis, here[0], 60);
     check(&analysis, &found);
@@ -113,7 +114,8 @@ fn regions_of_the_3_rpr() {
     assert_eq!(solutions, [1, 2, 2, 2, 2, 2, 2, 3, 3, 3]);
     assert_eq!(found.uniqueness.len(), 24);
     for solution in six.iter().filter(|s| s.det_a > 0.0) {
-        let region = found.region_at(&analysis, &solution.pose).map(|r| found.regions[r - 1].solutions);
+        let region =
+            found.region_at(&analysis, &solution.pose).map(|r| found.regions[r.number() - 1].solutions);
         assert_eq!(region, Some(3));
     }
 }
@@ -121,11 +123,14 @@ fn regions_of_the_3_rpr() {
 #[test]
 fn what_has_no_domains_is_an_error() {
     let of = |analysis: &Analysis, id| {
-        domains(analysis, id, DomainOptions::default(), &Control::unwatched()).map(|_| ())
+        domains(analysis, id, &DomainOptions::default(), &Control::unwatched()).map(|_| ())
     };
     let analysis = analyzed(&catalogue::find("five-bar").unwrap(), 5);
     let count = analysis.aspects.low;
-    assert_eq!(of(&analysis, count + 1), Err(DomainError::NoAspect { id: count + 1, count }));
+    assert_eq!(
+        of(&analysis, AspectId::new(count + 1)),
+        Err(DomainError::NoAspect { id: AspectId::new(count + 1), count })
+    );
 }
 
 /// A spherical robot whose direct solutions are up to eight.
@@ -133,7 +138,7 @@ fn what_has_no_domains_is_an_error() {
 fn a_spherical_robot_is_cut_into_regions() {
     let robot = Robot::from_toml(include_str!("../fixtures/sphere.toml"), "sphere.toml").unwrap();
     let analysis = analyzed(&robot, 5);
-    let largest = (1..=analysis.aspects.low).map(|id| partitioned(&analysis, id, 20));
+    let largest = (1..=analysis.aspects.low).map(|id| partitioned(&analysis, AspectId::new(id), 20));
     let found = largest.max_by(|a, b| a.measure.total_cmp(&b.measure)).unwrap();
     let Domains { agreement, .. } = &found;
     assert!(agreement.agree as f64 > 0.99 * agreement.away as f64, "{agreement:?}");

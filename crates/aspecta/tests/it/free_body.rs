@@ -1,7 +1,7 @@
 //! Slices of robots with six degrees of freedom: held against matrices written out by hand, dense sampling, and themselves.
 
 use aspecta::Kinematics;
-use aspecta::aspect::{Analysis, AnalysisError, Options, Place, analyze};
+use aspecta::aspect::{Analysis, AnalysisError, AspectId, ClassId, Options, Place, analyze};
 use aspecta::kinematics::{Solution, WorkingMode};
 use aspecta::paving::{Budget, Control};
 use aspecta::robot::{Actuator, Revolute, Robot, catalogue};
@@ -88,7 +88,7 @@ fn check_cells(analysis: &Analysis, samples: u32) -> (usize, usize) {
             let found = solutions.iter().find(|s| s.mode == class.mode);
             let det = found.map_or(-1.0, |s| det_by_hand(robot, &x, &s.q) * f64::from(class.det_a.factor()));
             members += usize::from(det > NOISE);
-            let place = analysis.locate(k, &x);
+            let place = analysis.locate(&x, ClassId::new(k));
             let said = format!("{} {} {x:?}: {place:?}, {det}", class.mode, class.det_a);
             match place {
                 Place::Inside(id) => {
@@ -210,16 +210,17 @@ fn the_order_of_the_legs_does_not_matter() {
             let swapped = if is_odd { class.det_a.opposite() } else { class.det_a };
             let mode: WorkingMode = moved(&&*class.mode.to_string()).parse().unwrap();
             let twin = there.class_of(mode, swapped).unwrap();
-            let low = (class.low, there.classes[twin].low);
-            let high = (class.high.unwrap_or(usize::MAX), there.classes[twin].high.unwrap_or(usize::MAX));
+            let other = &there.classes[twin.index()];
+            let low = (class.low, other.low);
+            let high = (class.high.unwrap_or(usize::MAX), other.high.unwrap_or(usize::MAX));
             assert!(low.0 <= high.1 && low.1 <= high.0, "{name} {mode}: {low:?} {high:?}");
-            if class.high == Some(class.low) && there.classes[twin].high == Some(there.classes[twin].low) {
+            if class.high == Some(class.low) && other.high == Some(other.low) {
                 assert_eq!(low.0, low.1);
             }
             for i in 0..2000 {
                 let x = pose(&here, i);
                 let inside = |place: Place| matches!(place, Place::Inside(_));
-                let places = [here.locate(k, &x), there.locate(twin, &x)];
+                let places = [here.locate(&x, ClassId::new(k)), there.locate(&x, twin)];
                 for [a, b] in [places, [places[1], places[0]]] {
                     assert!(!(inside(a) && b == Place::Outside), "{name} {mode}: {x:?}");
                 }
@@ -239,14 +240,14 @@ fn more_modes_than_one_pass_takes_are_all_analysed() {
     for (k, class) in all.classes.iter().enumerate() {
         for aspect in &class.aspects {
             id += 1;
-            assert_eq!(aspect.id, id);
-            assert_eq!(all.locate(k, &aspect.sample.pose), Place::Inside(id));
+            assert_eq!(aspect.id, AspectId::new(id));
+            assert_eq!(all.locate(&aspect.sample.pose, ClassId::new(k)), Place::Inside(AspectId::new(id)));
         }
     }
     for name in ["++++++", "-+-+-+", "+--+-+", "------"] {
         let one = analyzed(&robot, HEXA_SLICES[3], &[name], Budget::default());
         for class in &one.classes {
-            let twin = &all.classes[all.class_of(class.mode, class.det_a).unwrap()];
+            let twin = &all.classes[all.class_of(class.mode, class.det_a).unwrap().index()];
             assert_eq!((twin.low, twin.high), (class.low, class.high), "{name}");
         }
         assert_eq!(
@@ -273,7 +274,7 @@ fn orientations_at_the_pole_have_one_aspect_by_all_their_names() {
             for name in -14..=14 {
                 let yaw = 0.05 * f64::from(name);
                 let x = [0.4, 0.3, 0.6, yaw + 0.05 * f64::from(difference), FRAC_PI_2 - 1e-9, yaw];
-                if let Place::Inside(id) = analysis.locate(k, &x) {
+                if let Place::Inside(id) = analysis.locate(&x, ClassId::new(k)) {
                     seen.insert(id);
                     named += 1;
                 }

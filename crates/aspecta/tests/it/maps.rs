@@ -1,11 +1,11 @@
 //! Maps: where configurations lie, and the file that keeps it.
 
 use aspecta::Kinematics;
-use aspecta::aspect::{Analysis, Options, Place, analyze};
-use aspecta::domain::{DomainOptions, Map, MapError, MappedAspect, Nowhere, domains};
+use aspecta::aspect::{Analysis, AspectId, ClassId, Options, Place, analyze};
+use aspecta::domain::{DomainOptions, Map, MapError, MappedAspect, Nowhere, RegionId, domains};
 use aspecta::kinematics::constraints::Constraint;
 use aspecta::paving::{Budget, Control};
-use aspecta::robot::catalogue;
+use aspecta::robot::{LegIndex, catalogue};
 use flate2::Compression;
 use flate2::read::GzDecoder;
 use flate2::write::GzEncoder;
@@ -18,14 +18,14 @@ fn mapped(robot: &str, depth: u32, cells: usize) -> (Analysis, Map) {
     let budget = Budget { depth: Some(depth), ..Budget::default() };
     let options = Options { budget, ..Options::default() };
     let analysis = analyze(&catalogue::find(robot).unwrap(), &options, &Control::unwatched()).unwrap();
-    let sheet = |id: usize| {
+    let sheet = |id: AspectId| {
         let options = DomainOptions { cells, samples: 1000 };
         MappedAspect {
-            domains: domains(&analysis, id, options, &Control::unwatched()).unwrap(),
+            domains: domains(&analysis, id, &options, &Control::unwatched()).unwrap(),
             surfaces: None,
         }
     };
-    let ids: Vec<usize> = analysis.classes.iter().flat_map(|c| c.aspects.iter().map(|a| a.id)).collect();
+    let ids: Vec<AspectId> = analysis.classes.iter().flat_map(|c| c.aspects.iter().map(|a| a.id)).collect();
     let map = Map::new(&analysis, ids.into_iter().map(sheet).collect());
     (analysis, map)
 }
@@ -52,14 +52,17 @@ fn a_pose_lies_in_the_aspect_that_the_analysis_says() {
     for _ in 0..20_000 {
         let pose: Vec<f64> = analysis.window.ranges.iter().map(|r| random.within(r.0, r.1)).collect();
         for (k, class) in analysis.classes.iter().enumerate() {
-            let Place::Inside(id) = analysis.locate(k, &pose) else { continue };
+            let Place::Inside(id) = analysis.locate(&pose, ClassId::new(k)) else { continue };
             let location = map.locate(&pose, class.mode).unwrap();
             assert_eq!((location.det_a, location.aspect), (class.det_a, Some(id)), "{pose:?}");
             assert_eq!(read.locate(&pose, class.mode), Ok(location));
             // Every aspect is its own uniqueness domain; its tips are thinner than cells.
             if let Some(region) = location.region {
-                assert_eq!((region, map.uniqueness(id, region).collect::<Vec<_>>()), (1, vec![1]));
-                found[id] += 1;
+                assert_eq!(
+                    (region, map.uniqueness(id, region).collect::<Vec<_>>()),
+                    (RegionId::new(1), vec![1])
+                );
+                found[id.number()] += 1;
             }
         }
     }
@@ -81,7 +84,7 @@ fn direct_solutions_in_one_aspect_share_no_uniqueness_domain() {
     for i in 0..6 {
         assert!(!domains(i).is_empty());
         let of = map.domains(places[i].aspect.unwrap()).unwrap();
-        assert_eq!(of.regions[places[i].region.unwrap() - 1].solutions, 3);
+        assert_eq!(of.regions[places[i].region.unwrap().number() - 1].solutions, 3);
         for j in (0..i).filter(|&j| places[j].aspect == places[i].aspect) {
             assert!(of.coincide(places[i].region.unwrap(), places[j].region.unwrap()));
             assert!(domains(i).iter().all(|domain| !domains(j).contains(domain)));
@@ -94,8 +97,8 @@ fn why_a_pose_is_nowhere() {
     let (_, map) = mapped("five-bar", 7, 40);
     let mode = "++".parse().unwrap();
     // Legs 8 + 5 from (0, 0), 5 + 8 from (9, 0).
-    assert_eq!(map.locate(&[3.0, 13.0], mode), Err(Nowhere::OutOfReach(1)));
-    assert_eq!(map.locate(&[0.0, 0.5], mode), Err(Nowhere::OutOfReach(1)));
+    assert_eq!(map.locate(&[3.0, 13.0], mode), Err(Nowhere::OutOfReach(LegIndex::new(0))));
+    assert_eq!(map.locate(&[0.0, 0.5], mode), Err(Nowhere::OutOfReach(LegIndex::new(0))));
     assert!(matches!(map.locate(&[3.0], mode), Err(Nowhere::Pose(_))));
     let mut robot = catalogue::find("irb-360").unwrap();
     robot.window = vec![None, None, Some((-1500.0, -500.0))];

@@ -2,14 +2,14 @@
 //! can be paved.
 
 use aspecta::Kinematics;
-use aspecta::aspect::{Analysis, DetSign, Options, Place, analyze};
+use aspecta::aspect::{Analysis, AspectId, ClassId, DetSign, Options, Place, analyze};
 use aspecta::kinematics::WorkingMode;
 use aspecta::kinematics::chart::Chart;
 use aspecta::kinematics::constraints::{Constraint, Demand};
 use aspecta::kinematics::path::curve::{Along, Curve, along};
 use aspecta::num::Interval;
 use aspecta::paving::{Budget, Control, Mark, Node, Paving, Stop};
-use aspecta::robot::{Actuator, Leg, Limit, Platform, Revolute, Robot, Strut, catalogue};
+use aspecta::robot::{Actuator, Leg, LegIndex, Limit, Platform, Revolute, Robot, Strut, catalogue};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
@@ -383,7 +383,7 @@ fn located_poses_are_where_they_are_said_to_be() {
             let x = pose_in(&analysis.pavings[0], 0, &mut dice);
             for (class, mode, sign) in classes(&analysis.pavings[0]) {
                 let is_member = member(&robot, mode, sign, &x);
-                match analysis.locate(class, &x) {
+                match analysis.locate(&x, ClassId::new(class)) {
                     Place::Inside(id) => {
                         seen[0] += 1;
                         assert_ne!(is_member, Some(false), "{mode} {sign} {x:?} {robot:?}");
@@ -405,7 +405,7 @@ fn located_poses_are_where_they_are_said_to_be() {
     assert!(seen.iter().all(|&n| n > 1000), "{seen:?}");
 }
 
-fn check_bounds(analysis: &Analysis, class: usize, id: usize, x: &[f64]) {
+fn check_bounds(analysis: &Analysis, class: usize, id: AspectId, x: &[f64]) {
     let class = &analysis.classes[class];
     let aspect = class.aspects.iter().find(|a| a.id == id).expect("an aspect of the class");
     let within = |(lo, hi): (f64, f64), v: f64, angle: bool| {
@@ -496,12 +496,13 @@ fn the_constraint_named_is_the_one_that_fails() {
         along(&robot, &Demand::class(mode, sign), &Curve::segment(&[-5.0, 3.0], &[end, 3.0]), 100_000)
     };
     let sign = robot.jacobians(&[-5.0, 3.0], &[34f64.sqrt(), 205f64.sqrt()]).unwrap().det_a().signum() as i8;
-    assert!(matches!(decide(4.0, sign), Along::Undecided { constraint: Constraint::Limit(0, 0), .. }));
+    let Along::Undecided { constraint, .. } = decide(4.0, sign) else { panic!("{:?}", decide(4.0, sign)) };
+    assert_eq!(constraint, Constraint::Limit(LegIndex::new(0), 0));
     let Along::Outside { constraint, from, to } = decide(7.0, sign) else {
         panic!("{:?}", decide(7.0, sign))
     };
     // x = 5 is t = 10/12.
-    assert_eq!(constraint, Constraint::Limit(1, 0));
+    assert_eq!(constraint, Constraint::Limit(LegIndex::new(1), 0));
     assert!(from <= 10.0 / 12.0 && 10.0 / 12.0 < to, "{from} {to}");
     // Well clear of the first limit nothing is in doubt before the failure.
     let Along::Outside { from, to, .. } =
@@ -702,7 +703,7 @@ fn a_cancelled_run_is_sound() {
         assert_eq!((analysis.run.stop, analysis.run.boxes, analysis.run.depth), (Stop::Cancelled, 0, 0));
         assert_eq!((analysis.aspects.low, analysis.aspects.high), (0, None));
         assert!(analysis.classes.iter().all(|c| c.measure == 0.0 && c.undecided > 0.0));
-        assert_eq!(analysis.locate(0, &[1.0; 3][..robot.dof()]), Place::Undecided);
+        assert_eq!(analysis.locate(&[1.0; 3][..robot.dof()], ClassId::new(0)), Place::Undecided);
     }
 }
 

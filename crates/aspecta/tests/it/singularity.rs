@@ -6,7 +6,7 @@ use aspecta::kinematics::placement::Placement;
 use aspecta::kinematics::{SINGULAR, Singularity, State};
 use aspecta::num::Interval;
 use aspecta::robot::{
-    Actuator, BASE_FRAME, Leg, Platform, Prismatic, Revolute, Robot, Spherical, Strut, point,
+    Actuator, BASE_FRAME, Leg, LegIndex, Platform, Prismatic, Revolute, Robot, Spherical, Strut, point,
 };
 use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -155,7 +155,7 @@ proptest! {
         let unreached = robot.out_of_reach(pose).unwrap();
         prop_assert!(unreached.iter().all(|o| o.gap > 0.0));
         for (k, leg) in robot.leg_solutions(pose).unwrap().iter().enumerate() {
-            prop_assert_eq!(leg.reach < 0.0, unreached.iter().any(|o| o.leg == k + 1));
+            prop_assert_eq!(leg.reach < 0.0, unreached.iter().any(|o| o.leg == LegIndex::new(k)));
         }
     }
 
@@ -205,7 +205,7 @@ fn five_bar_with_a_stretched_or_folded_leg_is_serial_singular() {
         let pose = [distance * turn.cos(), distance * turn.sin()];
         let q2 = robot.leg_solutions(&pose).unwrap()[1].q[0].expect("leg 2 reaches the pose");
         let state = robot.state(&pose, &[turn, q2]).unwrap();
-        assert_eq!(state.serial_legs, [1], "{state:?}");
+        assert_eq!(state.serial_legs, [LegIndex::new(0)], "{state:?}");
         assert_eq!((state.singularity, state.mode), (Singularity::Serial, None));
         assert!(state.residual < 1e-14 && state.serial_measures[1] > 0.1 && state.parallel_measure > 0.01);
         assert!(state.condition_b > 1e6 && state.det_b.abs() < 1e-10);
@@ -222,7 +222,7 @@ fn everything_in_line_is_the_third_kind() {
     let robot = Robot::new("stretched", Platform::PlanePoint, legs).unwrap();
     let state = robot.state(&[13.0, 0.0], &[0.0, PI]).unwrap();
     assert_eq!(state.singularity, Singularity::Both);
-    assert_eq!((state.serial_legs, state.mode), (vec![1, 2], None));
+    assert_eq!((state.serial_legs, state.mode), ([0, 1].map(LegIndex::new).to_vec(), None));
 }
 
 /// A 3-RRR built so that its rods point to one given point, or are parallel: its A is singular.
@@ -264,7 +264,10 @@ fn three_rrr_with_a_leg_folded_onto_its_anchor() {
     let rest = |k: usize| legs[k].q[0].unwrap();
     for alpha in [0.0, 1.0, -2.5] {
         let state = robot.state(&[-10.0, -10.0, 0.2], &[alpha, rest(1), rest(2)]).unwrap();
-        assert_eq!((state.singularity, &state.serial_legs[..]), (Singularity::Serial, &[1][..]));
+        assert_eq!(
+            (state.singularity, &state.serial_legs[..]),
+            (Singularity::Serial, &[LegIndex::new(0)][..])
+        );
         assert!(state.residual < 1e-13);
     }
 }
@@ -287,7 +290,7 @@ fn perpendicular_rods_have_condition_one() {
 fn how_far_out_of_reach() {
     let robot = five_bar();
     let too_far = robot.out_of_reach(&[-20.0, 0.0]).unwrap();
-    assert_eq!(too_far.iter().map(|o| o.leg).collect::<Vec<_>>(), [1, 2]);
+    assert_eq!(too_far.iter().map(|o| o.leg).collect::<Vec<_>>(), [0, 1].map(LegIndex::new));
     assert!((too_far[0].gap - 7.0).abs() < 1e-13 && (too_far[1].gap - 16.0).abs() < 1e-13);
     let too_near = robot.out_of_reach(&[1.0, 0.0]).unwrap();
     assert_eq!(too_near.len(), 1);

@@ -1,9 +1,9 @@
 //! Basic regions and characteristic surfaces on slices: held against those of the whole workspace, and against the direct model.
 
 use aspecta::Kinematics;
-use aspecta::aspect::{Analysis, DetSign, Options, analyze};
+use aspecta::aspect::{Analysis, AspectId, DetSign, Options, analyze};
 use aspecta::domain::boundary::Face;
-use aspecta::domain::{DomainOptions, Domains, Mesh, domains, slice};
+use aspecta::domain::{DomainOptions, Domains, Mesh, RegionId, domains, slice};
 use aspecta::kinematics::constraints::Constraint;
 use aspecta::paving::{Budget, Control};
 use aspecta::robot::{Robot, catalogue};
@@ -19,12 +19,12 @@ fn analyzed(robot: &Robot, fix: &[(usize, f64)], modes: &[&str], depth: u32) -> 
         .unwrap()
 }
 
-fn partitioned(analysis: &Analysis, id: usize, cells: usize, samples: usize) -> Domains {
-    domains(analysis, id, DomainOptions { cells, samples }, &Control::unwatched()).unwrap()
+fn partitioned(analysis: &Analysis, id: AspectId, cells: usize, samples: usize) -> Domains {
+    domains(analysis, id, &DomainOptions { cells, samples }, &Control::unwatched()).unwrap()
 }
 
 /// The number of the first aspect of a class.
-fn first_of(analysis: &Analysis, mode: &str, det_a: DetSign) -> usize {
+fn first_of(analysis: &Analysis, mode: &str, det_a: DetSign) -> AspectId {
     let class = analysis.classes.iter().find(|c| c.mode.to_string() == mode && c.det_a == det_a).unwrap();
     class.aspects[0].id
 }
@@ -53,15 +53,15 @@ fn slices_agree_with_the_whole() {
         let agreement = &found.agreement;
         assert!(agreement.agree as f64 > 0.995 * agreement.away as f64, "{agreement:?}");
         assert!(agreement.away > agreement.samples / 2, "{agreement:?}");
-        let of: Vec<usize> = found
+        let of: Vec<RegionId> = found
             .regions
             .iter()
             .map(|r| all.region_at(&whole, &r.pose).expect("a region of the whole"))
             .collect();
         for (region, &of) in found.regions.iter().zip(&of) {
-            assert_eq!(region.solutions, all.regions[of - 1].solutions, "φ = {phi}: {region:?}");
+            assert_eq!(region.solutions, all.regions[of.number() - 1].solutions, "φ = {phi}: {region:?}");
         }
-        let of = |(a, b): (usize, usize)| (of[a - 1], of[b - 1]);
+        let of = |(a, b): (RegionId, RegionId)| (of[a.number() - 1], of[b.number() - 1]);
         for pair in found.joined.iter().map(|&pair| of(pair)) {
             assert_eq!(pair.0, pair.1, "φ = {phi}");
         }

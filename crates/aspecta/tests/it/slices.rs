@@ -1,7 +1,7 @@
 //! Slices: held against configurations written out by hand, against pavings of the whole robot and against each other.
 
 use aspecta::Kinematics;
-use aspecta::aspect::{Analysis, AnalysisError, DetSign, Options, Place, analyze};
+use aspecta::aspect::{Analysis, AnalysisError, ClassId, DetSign, Options, Place, analyze};
 use aspecta::paving::{Budget, Control, Stop};
 use aspecta::robot::{Leg, Platform, Prismatic, Robot, SliceError, catalogue};
 use rayon::prelude::*;
@@ -93,7 +93,7 @@ fn the_slice_of_the_3_rrr_has_the_signs_of_its_configurations() {
                 let det = configurations.get(&class.mode.to_string()).copied();
                 let depth = det.map_or(-1.0, |det| det * f64::from(class.det_a.factor()));
                 members += usize::from(depth > NOISE);
-                match analysis.locate(k, &x) {
+                match analysis.locate(&x, ClassId::new(k)) {
                     Place::Inside(id) => {
                         decided += 1;
                         assert!(depth > -NOISE, "{} {} {x:?}", class.mode, class.det_a);
@@ -268,7 +268,7 @@ fn check_consistency(whole: &Analysis, slice: &Analysis) -> [usize; 2] {
     for i in 0..3000 {
         let x = pose(slice, i);
         for k in 0..whole.classes.len() {
-            match (slice.locate(k, &x), whole.locate(k, &x)) {
+            match (slice.locate(&x, ClassId::new(k)), whole.locate(&x, ClassId::new(k))) {
                 (Place::Inside(id), Place::Inside(whole)) => {
                     agree[0] += 1;
                     assert_eq!(*home.entry(id).or_insert(whole), whole, "aspect {id} at {x:?}");
@@ -376,16 +376,16 @@ fn held_angles_count_modulo_full_turns() {
     let mut inside = 0;
     for i in 0..500 {
         let mut x = pose(&slice, i);
-        let place = slice.locate(0, &x);
+        let place = slice.locate(&x, ClassId::new(0));
         inside += usize::from(matches!(place, Place::Inside(_)));
         for turns in [-2.0, -1.0, 1.0, 3.0] {
             x[2] = held + turns * TAU;
-            assert_eq!(slice.locate(0, &x), place);
+            assert_eq!(slice.locate(&x, ClassId::new(0)), place);
         }
         // Off the slice there is nothing, however near.
         for off in [1e-12, -1e-9, 1.0] {
             x[2] = held + off;
-            assert_eq!(slice.locate(0, &x), Place::Outside);
+            assert_eq!(slice.locate(&x, ClassId::new(0)), Place::Outside);
         }
     }
     assert!(inside > 20, "{inside}");

@@ -4,7 +4,7 @@ use crate::random::Random;
 use aspecta::Kinematics;
 use aspecta::motion::time::{JointLimits, Limited, Piece, TimeError, Trajectory, Waypoint, trajectory};
 use aspecta::motion::{Joined, PathOptions, check_poses};
-use aspecta::robot::catalogue;
+use aspecta::robot::{LegIndex, catalogue};
 
 fn piece(samples: impl IntoIterator<Item = Vec<f64>>) -> Piece {
     let mode = "++".parse().unwrap();
@@ -64,7 +64,7 @@ fn straight_lines_have_the_closed_form() {
         assert!(first.velocity.iter().chain(&last.velocity).all(|v| v.abs() < 1e-9));
         assert!((last.q[0] - 0.5 - way).abs() < 1e-12 && (last.q[1] - 1.0 + way / 3.0).abs() < 1e-12);
         let binding = motion.bindings();
-        assert!(binding.iter().all(|b| b.joint == 1), "{binding:?}");
+        assert!(binding.iter().all(|b| b.joint == LegIndex::new(0)), "{binding:?}");
         let cruising = binding.iter().find(|b| b.limit == Limited::Speed).map_or(0.0, |b| b.share);
         let trapezoid = if way * a >= v * v { 1.0 - 2.0 * v / a / expected } else { 0.0 };
         assert!((cruising - trapezoid).abs() < 2e-2, "{cruising} {trapezoid}");

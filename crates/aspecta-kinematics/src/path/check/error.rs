@@ -1,7 +1,7 @@
 //! Why a path cannot be checked.
 
 use crate::follow::StartError;
-use crate::{KinematicsError, WorkingMode};
+use crate::{KinematicsError, LegIndex, WorkingMode};
 use aspecta_robot::num::{self, written};
 
 /// Why a path cannot be checked at all.
@@ -47,8 +47,8 @@ pub enum PathError {
     /// The first pose is out of reach.
     #[error("the path starts out of reach: leg {leg} cannot close at pose 1")]
     StartOutOfReach {
-        /// Leg number, from 1.
-        leg: usize,
+        /// The leg.
+        leg: LegIndex,
     },
     /// The first pose is singular, as far as intervals can tell.
     #[error("the path starts in a singularity, or too near to one to tell the sign of det A or of a B_jj")]

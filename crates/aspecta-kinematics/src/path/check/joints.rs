@@ -7,8 +7,8 @@ use crate::Kinematics;
 use crate::constraints::{Constraint, is_limited};
 use crate::follow::{BadInput, Follower, Refusal, Survey};
 use crate::path::curve::Curve;
-use aspecta_robot::Robot;
 use aspecta_robot::num::Interval;
+use aspecta_robot::{LegIndex, Robot};
 
 /// Stretches of t shorter than this are not bisected further.
 const SHORTEST: f64 = 1e-9;
@@ -237,8 +237,9 @@ impl<'a> Walk<'a> {
         let signed =
             |x: Interval, sign: f64, margin: f64| x * Interval::point(sign) - Interval::point(margin);
         let reach = survey.serial.iter().zip(&self.signs).enumerate();
-        let mut all: Vec<_> =
-            reach.map(|(j, (b, sign))| (Constraint::Reach(j), signed(*b, *sign, margins.serial))).collect();
+        let mut all: Vec<_> = reach
+            .map(|(j, (b, sign))| (Constraint::Reach(LegIndex::new(j)), signed(*b, *sign, margins.serial)))
+            .collect();
         // That det A does not vanish is proved already.
         if margins.parallel > 0.0 {
             all.push((Constraint::Det, signed(survey.parallel, self.sign, margins.parallel)));
@@ -292,7 +293,7 @@ impl<'a> Walk<'a> {
     /// The path ends: a parallel singularity is not excluded.
     fn give_up(&mut self, k: usize, [from, to]: [f64; 2], refusal: &Refusal) {
         let (constraint, end) = match *refusal {
-            Refusal::Input(BadInput::StrutLength { leg, .. }) => (Constraint::Reach(leg - 1), to),
+            Refusal::Input(BadInput::StrutLength { leg, .. }) => (Constraint::Reach(leg), to),
             Refusal::Parallel { singular_at, .. } => (Constraint::Det, from + singular_at * (to - from)),
             Refusal::Input(_) | Refusal::Serial { .. } | Refusal::TooLong { .. } => (Constraint::Det, to),
         };

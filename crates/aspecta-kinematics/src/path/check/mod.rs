@@ -19,7 +19,7 @@ use crate::Kinematics;
 use crate::constraints::{self, Constraint, Demand, Kind, Margins, is_limited};
 use crate::path::curve::{Along, Curve, along};
 use crate::path::units;
-use aspecta_robot::{Robot, WorkingMode};
+use aspecta_robot::{LegIndex, Robot, WorkingMode};
 use clearance::{PoseStretch, clearance};
 use serde::Serialize;
 
@@ -278,7 +278,7 @@ fn check_input(
     }
     let legs = robot.leg_solutions(&poses[0]).map_err(|error| PathError::Sample { row: 1, error })?;
     match legs.iter().position(|leg| leg.q.iter().all(Option::is_none)) {
-        Some(k) => Err(PathError::StartOutOfReach { leg: k + 1 }),
+        Some(k) => Err(PathError::StartOutOfReach { leg: LegIndex::new(k) }),
         None => Ok(()),
     }
 }

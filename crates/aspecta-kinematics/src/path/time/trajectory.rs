@@ -3,6 +3,7 @@
 use super::grid::{AT, Step, fastest};
 use super::{JointLimits, Piece, Waypoint};
 use crate::path::spline::{Point, Spline};
+use aspecta_robot::LegIndex;
 use aspecta_robot::num::padded;
 use serde::Serialize;
 
@@ -65,8 +66,8 @@ pub enum Limited {
 /// How long a limit is what keeps the robot from being faster.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Binding {
-    /// The joint, from 1.
-    pub joint: usize,
+    /// The joint, by its leg.
+    pub joint: LegIndex,
     /// Which of its limits.
     pub limit: Limited,
     /// The share of the time, in [0, 1].
@@ -136,7 +137,7 @@ impl Trajectory {
                 let time: f64 = self.legs.iter().map(|leg| leg.bound(joint, i, &self.limits)).sum();
                 let share = (time / self.total).min(1.0);
                 if share > 0.0 {
-                    all.push(Binding { joint: joint + 1, limit, share });
+                    all.push(Binding { joint: LegIndex::new(joint), limit, share });
                 }
             }
         }

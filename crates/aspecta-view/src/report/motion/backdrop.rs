@@ -16,7 +16,7 @@ use crate::figure::slices::{cut, place};
 use crate::figure::survey::{Lines, cell_raster, pose_axis};
 use crate::figure::svg::{Anchor, Svg};
 use crate::report::side;
-use aspecta::aspect::{Analysis, Cell};
+use aspecta::aspect::{Analysis, AspectId, Cell, ClassId};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -31,8 +31,8 @@ const ASKED: usize = 16;
 /// A picture of a class, whole or cut.
 #[derive(Clone, Copy, PartialEq)]
 struct Section {
-    class: usize,
-    aspect: Option<usize>,
+    class: ClassId,
+    aspect: Option<AspectId>,
     /// The third coordinate.
     at: Option<f64>,
 }
@@ -50,7 +50,7 @@ pub fn panel(analysis: &Analysis, frames: &[Frame], tracks: &mut Tracks) -> Opti
             sections.push(*section);
         }
     }
-    let cells: BTreeMap<usize, Vec<Cell>> =
+    let cells: BTreeMap<ClassId, Vec<Cell>> =
         sections.iter().map(|s| s.class).map(|class| (class, analysis.cells(class))).collect();
     let plot = Map::new(analysis, axes);
     let (width, height) =
@@ -85,7 +85,7 @@ fn sections(analysis: &Analysis, frames: &[Frame]) -> Vec<Option<Section>> {
             continue;
         };
         let mut asked = stretch.iter().step_by(stretch.len().div_ceil(ASKED));
-        let aspect = asked.find_map(|frame| analysis.aspect_at(class, &frame.point.pose));
+        let aspect = asked.find_map(|frame| analysis.aspect_at(&frame.point.pose, class));
         let heights = heights(analysis, stretch, frames.len());
         all.extend(heights.into_iter().map(|at| Some(Section { class, aspect, at })));
     }
@@ -137,20 +137,20 @@ impl<'a> Map<'a> {
         };
         let through = vec![section.at.unwrap_or(0.0); self.analysis.robot.dof()];
         let plane = Plane { through, axes: [0, 1] };
-        let mode = self.analysis.classes[section.class].mode;
+        let mode = self.analysis.classes[section.class.index()].mode;
         let sheet = Sheet { robot: &self.analysis.robot, mode, plane: &plane };
         (raster, sheet.curves(&self.grid).into_iter().map(|c| (c.kind, c.points)).collect())
     }
 
     fn draw(&self, svg: &mut Svg, section: &Section, raster: &Raster<Label>, lines: &Lines) {
-        let class = &self.analysis.classes[section.class];
+        let class = &self.analysis.classes[section.class.index()];
         fill(svg, &self.chart, raster, |label| match label {
             Label::Outside => None,
             Label::Undecided => Some(UNDECIDED.to_owned()),
             Label::Aspect(id) if section.aspect.is_none_or(|own| own == id) => {
                 Some(palette::aspect(id).to_owned())
             }
-            Label::Aspect(id) => Some(palette::shade(id, 1, 2)),
+            Label::Aspect(id) => Some(palette::shade(id.number(), 1, 2)),
         });
         draw_lines(svg, &self.chart, lines, [false; 2]);
         let at = section.at.map_or(String::new(), |at| format!(", {}", place(&self.analysis.robot, 2, at)));
@@ -161,8 +161,8 @@ impl<'a> Map<'a> {
         if let Some(id) = section.aspect {
             x = swatch(svg, [x, y], palette::aspect(id), &format!("aspect {id}"));
             if class.aspects.len() > 1 {
-                let other = class.aspects.iter().find(|a| a.id != id).map_or(id, |a| a.id);
-                x = swatch(svg, [x, y], &palette::shade(other, 1, 2), "others");
+                let other = class.aspects.iter().map(|a| a.id).find(|other| *other != id).unwrap_or(id);
+                x = swatch(svg, [x, y], &palette::shade(other.number(), 1, 2), "others");
             }
         }
         x = swatch(svg, [x, y], UNDECIDED, "undecided");

@@ -4,7 +4,9 @@ use super::Case;
 use super::maps::{areas, set};
 use crate::common::{analysis, five_bar};
 use aspecta::Kinematics;
-use aspecta::aspect::DetSign;
+use aspecta::aspect::{AspectId, DetSign};
+use aspecta::domain::RegionId;
+use aspecta::robot::LegIndex;
 use aspecta_view::figure::components::{JointSpace, Section};
 use aspecta_view::figure::joints::components;
 use aspecta_view::figure::palette::{SINGLE, UNDECIDED};
@@ -51,14 +53,16 @@ fn section(space: &JointSpace<'_>, at: f64) -> Section {
 #[test]
 fn coincident_components_have_one_colour_and_one_entry() {
     let cut = CASE.cut();
-    let svg = components(&JointSpace::new(&cut, 2).unwrap());
+    let svg = components(&JointSpace::new(&cut, LegIndex::new(2)).unwrap());
     let entries: Vec<_> = texts(&svg).iter().filter_map(|text| component(text)).collect();
     let mut regions: Vec<usize> = entries.iter().flat_map(|(regions, _)| regions.clone()).collect();
     regions.sort_unstable();
     assert_eq!(regions, (1..=10).collect::<Vec<_>>());
     for (regions, n) in &entries {
         assert!(regions.iter().all(|r| usize::from(CASE.domains.regions[r - 1].solutions) == *n));
-        let together = |a: &usize| regions.iter().all(|b| a == b || CASE.domains.coincide(*a, *b));
+        let together = |a: &usize| {
+            regions.iter().all(|b| a == b || CASE.domains.coincide(RegionId::new(*a), RegionId::new(*b)))
+        };
         assert!(regions.iter().all(together) && regions.len() == *n, "{regions:?}: n = {n}");
     }
     let colours: BTreeSet<String> = &areas(&svg) - &set([UNDECIDED]);
@@ -71,7 +75,7 @@ fn coincident_components_have_one_colour_and_one_entry() {
 fn any_joint_can_be_held() {
     let cut = CASE.cut();
     for (held, axes) in [(0, ["q₂ [unit]", "q₃ [unit]"]), (1, ["q₁ [unit]", "q₃ [unit]"])] {
-        let space = JointSpace::new(&cut, held).unwrap();
+        let space = JointSpace::new(&cut, LegIndex::new(held)).unwrap();
         assert_eq!([&space.axes[0].label, &space.axes[1].label], axes);
         // The same joint vector, whichever joint is held: the middle of the range of all.
         let [first, second] = [0, 1].map(|k| 0.5 * (space.axes[k].range.0 + space.axes[k].range.1));
@@ -86,7 +90,7 @@ fn any_joint_can_be_held() {
 #[test]
 fn sections_count_direct_solutions() {
     let cut = CASE.cut();
-    let space = JointSpace::new(&cut, 2).unwrap();
+    let space = JointSpace::new(&cut, LegIndex::new(2)).unwrap();
     let mut seen = BTreeSet::new();
     for at in [12.3, 18.2, 21.7] {
         let section = section(&space, at);
@@ -105,7 +109,7 @@ fn sections_count_direct_solutions() {
 #[test]
 fn lines_are_where_the_count_changes() {
     let cut = CASE.cut();
-    let space = JointSpace::new(&cut, 2).unwrap();
+    let space = JointSpace::new(&cut, LegIndex::new(2)).unwrap();
     let at = 18.2;
     let lines = space.changes(&section(&space, at), at);
     assert!(lines.iter().flatten().count() > 100);
@@ -121,7 +125,7 @@ fn lines_are_where_the_count_changes() {
 #[test]
 fn as_many_sheets_lie_over_each_other_as_there_are_solutions() {
     let cut = CASE.cut();
-    let svg = stack(&JointSpace::new(&cut, 2).unwrap());
+    let svg = stack(&JointSpace::new(&cut, LegIndex::new(2)).unwrap());
     let texts = texts(&svg);
     let sheets = texts.iter().filter(|text| text.starts_with("sheet ") && text.len() == 7).count();
     let marked: Vec<usize> = texts.iter().filter_map(|t| t.strip_prefix("n = ")?.parse().ok()).collect();
@@ -133,9 +137,9 @@ fn as_many_sheets_lie_over_each_other_as_there_are_solutions() {
 /// It has two joints: a map, not sections; one region, one sheet.
 #[test]
 fn the_five_bar_has_a_map_and_one_sheet() {
-    let case = Case::new(analysis(&five_bar(), 9), 1, 200, 200);
+    let case = Case::new(analysis(&five_bar(), 9), AspectId::new(1), 200, 200);
     let cut = case.cut();
-    let space = JointSpace::new(&cut, 2).unwrap();
+    let space = JointSpace::new(&cut, LegIndex::new(2)).unwrap();
     assert!(space.held.is_none());
     let (map, sheets) = (components(&space), stack(&space));
     for svg in [&map, &sheets] {

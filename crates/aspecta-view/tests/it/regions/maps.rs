@@ -2,6 +2,7 @@
 
 use super::Case;
 use crate::common::{analysis, five_bar, three_rrr};
+use aspecta::aspect::AspectId;
 use aspecta::domain;
 use aspecta::domain::boundary::Boundary;
 use aspecta_view::figure::barrier::Kind;
@@ -41,7 +42,7 @@ pub fn set<'a>(colours: impl IntoIterator<Item = &'a str>) -> BTreeSet<String> {
 /// Its aspects have no characteristic curves: each is one region, and its own uniqueness domain.
 #[test]
 fn an_aspect_of_the_five_bar_has_one_colour() {
-    let case = Case::new(analysis(&five_bar(), 9), 1, 200, 200);
+    let case = Case::new(analysis(&five_bar(), 9), AspectId::new(1), 200, 200);
     assert!(case.surface.simplices.is_empty());
     for svg in [regions(&case.cut()), uniqueness(&case.cut())] {
         let coloured: BTreeSet<String> = &areas(&svg) - &set([UNDECIDED]);
@@ -63,17 +64,17 @@ fn the_three_rpr_has_the_colours_of_ten_regions() {
     assert_eq!((legend_colours.len(), distinct.len()), (10, 10));
     assert_eq!(&areas(&svg) - &set([UNDECIDED]), distinct);
     for found in &case.domains.coincidences {
-        let [a, b] = [found.regions.0, found.regions.1].map(|n| hue(&legend_colours[&n]));
+        let [a, b] = [found.regions.0, found.regions.1].map(|n| hue(&legend_colours[&n.number()]));
         assert!((a - b).abs() < 4.0, "regions {:?}: hues {a} and {b}", found.regions);
     }
     assert_eq!(svg.matches("φ = ").count(), 12);
 
     // In its picture the largest uniqueness domain keeps its colours.
     let largest = &case.domains.uniqueness[0].regions;
-    let kept = largest.iter().map(|n| legend_colours[n].as_str());
+    let kept = largest.iter().map(|n| legend_colours[&n.number()].as_str());
     let svg = uniqueness(&case.cut());
     assert_eq!(&areas(&svg) - &set([UNDECIDED]), set(kept.chain([PALE])));
-    assert_eq!(legend(&svg).keys().collect::<Vec<_>>(), largest.iter().collect::<Vec<_>>());
+    assert!(legend(&svg).into_keys().eq(largest.iter().map(|region| region.number())));
 }
 
 /// Of a colour, in degrees.
@@ -86,7 +87,7 @@ fn hue(colour: &str) -> f64 {
 #[test]
 fn sections_lie_on_the_boundary() {
     let analysis = analysis(&three_rrr(), 7);
-    let boundary = domain::Mesh::from(&Boundary::new(&analysis, 1, 48).unwrap());
+    let boundary = domain::Mesh::from(&Boundary::new(&analysis, AspectId::new(1), 48).unwrap());
     let anchors = [[-10.0, -10.0], [10.0, -10.0], [0.0, 10.0_f64]];
     let attachments = [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0_f64]];
     for at in [-0.6, 0.25, 2.0_f64] {

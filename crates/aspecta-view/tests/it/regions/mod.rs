@@ -5,7 +5,7 @@ mod maps;
 mod meshes;
 
 use crate::common::analysis;
-use aspecta::aspect::{Analysis, DetSign};
+use aspecta::aspect::{Analysis, AspectId, DetSign};
 use aspecta::domain::boundary::Boundary;
 use aspecta::domain::characteristic::Characteristic;
 use aspecta::domain::{DomainOptions, Domains, Map, MappedAspect, Mesh, domains};
@@ -24,9 +24,9 @@ pub struct Case {
 
 impl Case {
     /// Regions in 1/`cells` of the window, surfaces on a grid of `mesh` cells.
-    fn new(analysis: Analysis, id: usize, cells: usize, mesh: usize) -> Self {
+    fn new(analysis: Analysis, id: AspectId, cells: usize, mesh: usize) -> Self {
         let control = Control { cancelled: &AtomicBool::new(false), progress: &|_| {} };
-        let domains = domains(&analysis, id, DomainOptions { cells, samples: 1000 }, &control).unwrap();
+        let domains = domains(&analysis, id, &DomainOptions { cells, samples: 1000 }, &control).unwrap();
         let boundary = Boundary::new(&analysis, id, mesh).unwrap();
         let surface = Characteristic::new(&analysis, &boundary).unwrap();
         let sheet = MappedAspect { domains: domains.clone(), surfaces: None };

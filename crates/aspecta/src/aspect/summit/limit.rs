@@ -4,8 +4,8 @@ use super::form::{Field, Form, range};
 use super::view::View;
 use arrayvec::ArrayVec;
 use aspecta_kinematics::constraints::{Configuration, Constraint};
-use aspecta_robot::WorkingMode;
 use aspecta_robot::num::Pack;
+use aspecta_robot::{LegIndex, WorkingMode};
 
 /// A limit's margin.
 pub(super) struct LimitPart<const N: usize, const M: usize> {
@@ -29,7 +29,7 @@ impl<const N: usize, const M: usize> LimitPart<N, M> {
         let View { robot, placement, legs, .. } = view;
         let at = Configuration { robot, placement, legs, heights, mode };
         let field = Field::of(&(at.margin(constraint) / at.unit(constraint)));
-        let legs = (0..N).filter(|&j| constraint.postures().holds(j));
+        let legs = (0..N).filter(|&j| constraint.postures().holds(LegIndex::new(j)));
         let own = legs.map(|j| (j, range(at.by_height(constraint, j, |f| f.value)))).collect();
         Self { constraint, mode, field, own }
     }

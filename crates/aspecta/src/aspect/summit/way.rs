@@ -9,8 +9,8 @@ use super::limit::LimitPart;
 use super::view::View;
 use arrayvec::ArrayVec;
 use aspecta_kinematics::constraints::{Constraint, Kind};
-use aspecta_robot::WorkingMode;
 use aspecta_robot::num::{Interval, Mask, Pack, Scalar};
+use aspecta_robot::{LegIndex, WorkingMode};
 use std::cell::LazyCell;
 
 /// The legs, and all that bounds the aspects but det A.
@@ -72,7 +72,8 @@ impl<'a, const D: usize, const N: usize, const M: usize> Way<'a, D, N, M> {
             match bound {
                 &Bound::Reach(j) => {
                     let reach = view.reach[j].value.lane(lane).meet(legs[j].height.lane(lane).square());
-                    let height = (reach / Interval::point(view.scale[Constraint::Reach(j)])).sqrt();
+                    let height =
+                        (reach / Interval::point(view.scale[Constraint::Reach(LegIndex::new(j))])).sqrt();
                     add(height, 1.0, self.reach_along(frame, j, sign(j), lane));
                 }
                 Bound::Limit(part) if part.is_in(mode) => {
@@ -124,7 +125,7 @@ fn bounds<const D: usize, const N: usize, const M: usize>(
     let heights = LazyCell::new(|| postures(view, legs));
     let of = |constraint: Constraint| -> ArrayVec<Bound<N, M>, MOST> {
         match constraint.kind() {
-            Kind::Serial(j) => std::iter::once(Bound::Reach(j)).collect(),
+            Kind::Serial(j) => std::iter::once(Bound::Reach(j.index())).collect(),
             Kind::Limit => {
                 let part = |mode| Bound::Limit(Box::new(LimitPart::new(view, &heights, constraint, mode)));
                 constraint.postures().choices(N).map(part).collect()

@@ -6,7 +6,7 @@
 //! an edge is (node, step), and neighbours agree on it, so that the simplices of the boundary fit without
 //! gaps.
 
-use crate::aspect::{Analysis, Aspect, Place};
+use crate::aspect::{Analysis, Aspect, AspectId, ClassId, Place};
 use crate::domain::field::Field;
 use aspecta_robot::work;
 use std::collections::VecDeque;
@@ -129,17 +129,18 @@ impl Lattice {
     pub fn tag<const D: usize, const N: usize>(
         &mut self,
         analysis: &Analysis,
-        class: usize,
-        aspect: usize,
+        class: ClassId,
+        aspect: AspectId,
         field: &Field<'_, D, N>,
     ) -> usize {
-        let only = analysis.classes[class].low == 1 && analysis.classes[class].high == Some(1);
+        let of = &analysis.classes[class.index()];
+        let only = of.low == 1 && of.high == Some(1);
         let tag = |node: usize| {
             let pose = self.pose::<N>(node);
             match field.violated(&pose, &[]) {
                 Some(_) => Tag::Outside,
                 None if only => Tag::Member,
-                None => match analysis.locate(class, &pose) {
+                None => match analysis.locate(&pose, class) {
                     Place::Inside(id) if id == aspect => Tag::Member,
                     Place::Inside(_) => Tag::Other,
                     Place::Undecided | Place::Outside => Tag::Unknown,

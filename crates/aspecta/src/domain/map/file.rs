@@ -1,7 +1,8 @@
 //! The file of a map: gzip-compressed JSON (docs/map-file.md).
 
 use super::{Map, MappedAspect, MappedClass};
-use crate::aspect::{Count, Measure};
+use crate::aspect::{AspectId, Count, Measure};
+use crate::domain::RegionId;
 use crate::domain::grid::Grid;
 use crate::domain::labels::{Labels, OUTSIDE};
 use crate::domain::mesh::Surfaces;
@@ -171,7 +172,7 @@ impl Map {
             Ok(sheet)
         };
         let sheets = file.sheets.into_iter().map(sheet).collect::<Result<Vec<MappedAspect>, Unsound>>()?;
-        let distinct: BTreeSet<usize> = sheets.iter().map(|sheet| sheet.domains.aspect).collect();
+        let distinct: BTreeSet<AspectId> = sheets.iter().map(|sheet| sheet.domains.aspect).collect();
         holds(distinct.len() == sheets.len(), "the regions of an aspect stand twice")?;
         Ok(Self { robot: file.robot, window, unit, aspects: file.aspects, classes: file.classes, sheets })
     }
@@ -216,16 +217,17 @@ impl MappedAspect {
         let labels = regions.saturating_add(domains.unresolved.parts);
         let mut named = domains.labels.region.iter().filter(|region| **region != OUTSIDE);
         holds(named.all(|&region| (region as usize) < labels), "a node in a region that there is not")?;
-        let is_region = |number: &usize| (1..=regions).contains(number);
-        let numbered =
-            (1..).zip(&domains.regions).all(|(k, region)| region.number == k && region.pose.len() == dof);
+        let is_region = |id: RegionId| (1..=regions).contains(&id.number());
+        let numbered = (1..)
+            .zip(&domains.regions)
+            .all(|(k, region)| region.number.number() == k && region.pose.len() == dof);
         holds(
             numbered,
             "regions that are not numbered from 1, or whose pose has another number of coordinates",
         )?;
         let pairs = domains.coincidences.iter().map(|c| c.regions).chain(domains.adjacent.iter().copied());
         let sets = domains.uniqueness.iter().flat_map(|domain| &domain.regions).copied();
-        let named = pairs.flat_map(|(a, b)| [a, b]).chain(sets).all(|number| is_region(&number));
+        let named = pairs.flat_map(|(a, b)| [a, b]).chain(sets).all(is_region);
         holds(named, "a region that there is not")?;
         holds(domains.cell.len() == dof, "cells with another number of coordinates")?;
         self.surfaces.as_ref().map_or(Ok(()), |surfaces| surfaces.check(dof))

@@ -34,15 +34,15 @@ use aspecta_robot::work::Stopwatch;
 /// let pose = [0.535, -0.75, -0.39, -2.785, -0.973, 1.06];
 /// let goal = [0.55, -0.75, -0.39, -2.785, -0.973, 1.06];
 /// let effort = Effort { samples: 100, ..Effort::default() };
-/// let found = plan(&robot, mode, [&pose, &goal], &PlanOptions::default(), &effort, &Control::unwatched())?;
+/// let found = plan(&robot, [&pose, &goal], mode, &PlanOptions::default(), &effort, &Control::unwatched())?;
 /// assert!(aspecta::check_path(&robot, &found.waypoints, mode)?.is_sound());
 /// # Ok(())
 /// # }
 /// ```
 pub fn plan(
     robot: &Robot,
-    mode: WorkingMode,
     [start, goal]: [&[f64]; 2],
+    mode: WorkingMode,
     options: &PlanOptions,
     effort: &Effort,
     control: &Control<'_>,
@@ -51,7 +51,7 @@ pub fn plan(
     if !robot.working_modes().contains(&mode) {
         return Err(Refusal::Mode(mode).into());
     }
-    let det_a = common_sign(robot, &window, mode, [start, goal], options.margins)?;
+    let det_a = common_sign(robot, &window, [start, goal], mode, options.margins)?;
     let demand = Demand { margins: options.margins, ..Demand::class(mode, det_a.factor()) };
     let territory = Territory::new(robot, &window, &demand, options.weight);
     let ends: [Pose; 2] = [start, goal].map(|pose| padded(&window.turned(pose)));

@@ -15,7 +15,7 @@ pub(super) mod shorten;
 
 pub use refusal::{End, Refusal};
 
-use crate::aspect::{Analysis, DetSign};
+use crate::aspect::{Analysis, AspectId, ClassId, DetSign};
 use aspecta_kinematics::constraints::{Demand, Margins};
 use aspecta_kinematics::path::curve::Along;
 use aspecta_robot::num::padded;
@@ -55,8 +55,8 @@ pub struct Plan {
     pub mode: WorkingMode,
     /// The sign of det A.
     pub det_a: DetSign,
-    /// The [`crate::aspect::Aspect::id`], where it is known.
-    pub aspect: Option<usize>,
+    /// The aspect, where it is known.
+    pub aspect: Option<AspectId>,
     /// The poses it goes through, the ends included. Angles go on past ±π; the last pose may be full turns from the one asked for.
     pub waypoints: Vec<Vec<f64>>,
     /// Its length: translations, and angles times the robot's characteristic length. Numerical.
@@ -119,11 +119,11 @@ impl<'a> Planner<'a> {
     pub fn check_ends(
         robot: &Robot,
         window: &Window,
-        mode: WorkingMode,
         ends: [&[f64]; 2],
+        mode: WorkingMode,
         options: &PlanOptions,
     ) -> Result<DetSign, Refusal> {
-        refusal::common_sign(robot, window, mode, ends, options.margins)
+        refusal::common_sign(robot, window, ends, mode, options.margins)
     }
 
     /// Returns the analysis that it plans over.
@@ -148,7 +148,7 @@ impl<'a> Planner<'a> {
     /// let analysis = analyze(&robot, &options, &Control::unwatched())?;
     ///
     /// let mut planner = Planner::new(&analysis);
-    /// let plan = planner.plan("++".parse()?, &[4.0, 7.0], &[5.0, 6.0], &PlanOptions::default())?;
+    /// let plan = planner.plan(&[4.0, 7.0], &[5.0, 6.0], "++".parse()?, &PlanOptions::default())?;
     /// assert_eq!(plan.waypoints[0], [4.0, 7.0]);
     /// assert!(aspecta::check_path(&robot, &plan.waypoints, plan.mode)?.is_sound());
     /// # Ok(())
@@ -156,9 +156,9 @@ impl<'a> Planner<'a> {
     /// ```
     pub fn plan(
         &mut self,
-        mode: WorkingMode,
         start: &[f64],
         goal: &[f64],
+        mode: WorkingMode,
         options: &PlanOptions,
     ) -> Result<Plan, Refusal> {
         let analysis = self.analysis;
@@ -166,8 +166,8 @@ impl<'a> Planner<'a> {
         if !analysis.classes.iter().any(|class| class.mode == mode) {
             return Err(Refusal::Mode(mode));
         }
-        let det_a = Self::check_ends(robot, window, mode, [start, goal], options)?;
-        let (class, aspect) = refusal::common_aspect(analysis, mode, det_a, [start, goal])?;
+        let det_a = Self::check_ends(robot, window, [start, goal], mode, options)?;
+        let (class, aspect) = refusal::common_aspect(analysis, [start, goal], mode, det_a)?;
         let demand = Demand { margins: options.margins, ..Demand::class(mode, det_a.factor()) };
         let cost = Cost::new(robot, window, &demand, options.weight);
         let proof = Proof { robot, window, demand: &demand };
@@ -191,7 +191,7 @@ impl<'a> Planner<'a> {
     /// Some path, proved.
     fn sound_path(
         &mut self,
-        class: usize,
+        class: ClassId,
         cost: &Cost<'_, 3>,
         proof: &Proof<'_>,
         ends: [Pose; 2],
@@ -202,7 +202,7 @@ impl<'a> Planner<'a> {
             return Ok(straight.to_vec());
         }
         let analysis = self.analysis;
-        let deepest = analysis.paving_of(class).0.depth;
+        let deepest = analysis.paving_behind(class).0.depth;
         for depth in coarsest(analysis.robot.dof()).min(deepest)..=deepest {
             let roadmap = self.roadmap(class, depth, cost);
             if let Some(path) = roadmap.path(analysis, proof, cost, ends) {
@@ -222,8 +222,8 @@ impl<'a> Planner<'a> {
         Err(Refusal::NotFound { depth: deepest, margins: proof.demand.margins })
     }
 
-    fn roadmap(&mut self, class: usize, depth: u32, cost: &Cost<'_, 3>) -> &mut Roadmap {
-        let made = &mut self.roadmaps[class];
+    fn roadmap(&mut self, class: ClassId, depth: u32, cost: &Cost<'_, 3>) -> &mut Roadmap {
+        let made = &mut self.roadmaps[class.index()];
         match made.iter().position(|roadmap| roadmap.depth == depth) {
             Some(k) => &mut made[k],
             None => {
@@ -312,7 +312,7 @@ impl Roadmap {
             }
         };
         add(&path, &end[..n]);
-        analysis.climb(self.class, &end[..n], &mut |pose| {
+        analysis.climb(&end[..n], self.class, &mut |pose| {
             let next = padded(pose);
             // The climb itself is proved to stay in the class, whatever its margins.
             if proof.demand.margins.are_any() && !proof.holds(&path[path.len() - 1], &next) {

@@ -1,11 +1,11 @@
 //! Why there is no plan.
 
-use crate::aspect::{Analysis, DetSign};
+use crate::aspect::{Analysis, AspectId, ClassId, DetSign};
 use aspecta_kinematics::constraints::{Demand, Kind, Margins};
 use aspecta_kinematics::path::curve::{Along, Curve, along};
 use aspecta_kinematics::{KinematicsError, WorkingMode, check_pose};
 use aspecta_robot::num::count;
-use aspecta_robot::{Robot, Window};
+use aspecta_robot::{LegIndex, Robot, Window};
 use serde::Serialize;
 use std::fmt;
 
@@ -48,8 +48,8 @@ pub enum Refusal {
     OutOfReach {
         /// Which end.
         end: End,
-        /// The leg, from 1.
-        leg: usize,
+        /// The leg.
+        leg: LegIndex,
     },
     /// A limit of the machine forbids it (proved).
     #[error("the {end} is beyond the {limit}: proved")]
@@ -81,10 +81,10 @@ pub enum Refusal {
         mode: WorkingMode,
         /// The sign of det A.
         det_a: DetSign,
-        /// The [`crate::aspect::Aspect::id`] of the start.
-        start: usize,
+        /// The aspect of the start.
+        start: AspectId,
         /// The aspect of the goal.
-        goal: usize,
+        goal: AspectId,
     },
     /// Neither a path nor a proof that there is none.
     #[error(
@@ -146,12 +146,12 @@ impl Refusal {
 pub(in crate::motion) fn common_sign(
     robot: &Robot,
     window: &Window,
-    mode: WorkingMode,
     ends: [&[f64]; 2],
+    mode: WorkingMode,
     margins: Margins,
 ) -> Result<DetSign, Refusal> {
     let [start, goal] = [(End::Start, ends[0]), (End::Goal, ends[1])];
-    let signs = [sign_at(robot, window, mode, start)?, sign_at(robot, window, mode, goal)?];
+    let signs = [sign_at(robot, window, start, mode)?, sign_at(robot, window, goal, mode)?];
     if signs[0] != signs[1] {
         return Err(Refusal::OppositeSigns(signs[0]));
     }
@@ -167,8 +167,8 @@ pub(in crate::motion) fn common_sign(
 pub(in crate::motion) fn sign_at(
     robot: &Robot,
     window: &Window,
-    mode: WorkingMode,
     (end, pose): (End, &[f64]),
+    mode: WorkingMode,
 ) -> Result<DetSign, Refusal> {
     check_pose(robot, pose).map_err(|error| Refusal::Pose { end, error })?;
     if !window.holds(&window.turned(pose)) && robot.window.iter().any(Option::is_some) {
@@ -180,7 +180,7 @@ pub(in crate::motion) fn sign_at(
         match at(sign) {
             Along::Inside => return Ok(sign),
             Along::Outside { constraint, .. } => match constraint.kind() {
-                Kind::Serial(leg) => return Err(Refusal::OutOfReach { end, leg: leg + 1 }),
+                Kind::Serial(leg) => return Err(Refusal::OutOfReach { end, leg }),
                 Kind::Limit => return Err(Refusal::BeyondLimit { end, limit: constraint.named(robot) }),
                 Kind::Parallel => {}
             },
@@ -193,12 +193,12 @@ pub(in crate::motion) fn sign_at(
 /// The class that both ends lie in, and their aspect: where both are known and differ, there is no path.
 pub(super) fn common_aspect(
     analysis: &Analysis,
+    ends: [&[f64]; 2],
     mode: WorkingMode,
     det_a: DetSign,
-    ends: [&[f64]; 2],
-) -> Result<(usize, Option<usize>), Refusal> {
+) -> Result<(ClassId, Option<AspectId>), Refusal> {
     let class = analysis.class_of(mode, det_a).ok_or(Refusal::Mode(mode))?;
-    let [start, goal] = ends.map(|pose| aspect_at(analysis, class, pose));
+    let [start, goal] = ends.map(|pose| aspect_at(analysis, pose, class));
     match (start, goal) {
         (Some(start), Some(goal)) if start != goal => {
             Err(Refusal::DifferentAspects { mode, det_a, start, goal })
@@ -208,10 +208,10 @@ pub(super) fn common_aspect(
 }
 
 /// The aspect of a pose that is proved to lie in a class.
-pub(in crate::motion) fn aspect_at(analysis: &Analysis, class: usize, pose: &[f64]) -> Option<usize> {
-    let entry = &analysis.classes[class];
+pub(in crate::motion) fn aspect_at(analysis: &Analysis, pose: &[f64], class: ClassId) -> Option<AspectId> {
+    let entry = &analysis.classes[class.index()];
     match (&entry.aspects[..], entry.high) {
         ([only], Some(1)) => Some(only.id),
-        _ => analysis.aspect_at(class, pose),
+        _ => analysis.aspect_at(pose, class),
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Pose;
 use super::cost::Cost;
-use crate::aspect::Analysis;
+use crate::aspect::{Analysis, ClassId};
 use crate::motion::search::cheapest_way;
 use crate::paving::{ClassSet, Mark, Node};
 use aspecta_kinematics::constraints::Margins;
@@ -35,7 +35,7 @@ pub(super) struct Roadmap {
     /// The neighbours of spot i: `next[first[i]..first[i + 1]]`.
     first: Vec<u32>,
     next: Vec<u32>,
-    pub class: usize,
+    pub class: ClassId,
     /// Proved paths between pieces, by the spots at their ends.
     bridges: Option<HashMap<[u32; 2], Vec<Pose>>>,
 }
@@ -47,9 +47,9 @@ struct Bridge {
 }
 
 impl Roadmap {
-    /// The boxes of class `class` (index into [`Analysis::classes`]) that lie in it, not deeper than `depth`.
-    pub fn new(analysis: &Analysis, class: usize, depth: u32, cost: &Cost<'_, 3>) -> Self {
-        let (paving, bit) = analysis.paving_of(class);
+    /// The boxes of a class that lie in it, not deeper than `depth`.
+    pub fn new(analysis: &Analysis, class: ClassId, depth: u32, cost: &Cost<'_, 3>) -> Self {
+        let (paving, bit) = analysis.paving_behind(class);
         let classify = classify(bit, depth);
         let mut nodes = Vec::new();
         paving.boxes_of(&classify, &mut |node| nodes.push(node));
@@ -113,7 +113,7 @@ impl Roadmap {
     fn bridge_from(&self, analysis: &Analysis, from: u32) -> Option<Bridge> {
         let start = self.spot(from).centre;
         let (mut path, mut met) = (vec![start], None);
-        analysis.climb(self.class, &start[..analysis.robot.dof()], &mut |pose| {
+        analysis.climb(&start[..analysis.robot.dof()], self.class, &mut |pose| {
             path.push(padded(pose));
             let other = |&to: &u32| self.spot(to).piece != self.spot(from).piece;
             met = self.holding(analysis, pose).filter(other);
@@ -156,7 +156,7 @@ impl Roadmap {
 
     /// The spot whose box holds a pose.
     pub fn holding(&self, analysis: &Analysis, pose: &[f64]) -> Option<u32> {
-        let (paving, bit) = analysis.paving_of(self.class);
+        let (paving, bit) = analysis.paving_behind(self.class);
         let (node, _) = paving.find(&classify(bit, self.depth), pose)?;
         self.nodes.binary_search(&node).ok().map(|spot| spot as u32)
     }

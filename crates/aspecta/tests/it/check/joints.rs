@@ -5,6 +5,7 @@ use crate::random::Random;
 use aspecta::Kinematics;
 use aspecta::kinematics::constraints::Constraint;
 use aspecta::motion::{Asked, Joined, PathOptions, check_joints, check_path, check_poses};
+use aspecta::robot::LegIndex;
 
 /// How far apart two poses are, angles as numbers.
 fn apart(a: &[f64], b: &[f64]) -> f64 {
@@ -71,12 +72,12 @@ fn a_serial_singularity_does_not_stop_joints() {
     let obstacle = check.obstacle.unwrap();
     assert_eq!(
         (obstacle.asked, obstacle.constraint, obstacle.proved),
-        (Asked::Regular, Constraint::Reach(1), true)
+        (Asked::Regular, Constraint::Reach(LegIndex::new(1)), true)
     );
     assert!(obstacle.t.0 <= 0.5 && 0.5 <= obstacle.t.1 && obstacle.t.1 - obstacle.t.0 < 1e-6, "{obstacle:?}");
     assert!(check.end_poses[1].is_some());
     let last = check.profile.last().unwrap();
-    assert_eq!(last.mode, start.mode.with_other_posture(1));
+    assert_eq!(last.mode, start.mode.with_other_posture(LegIndex::new(1)));
     assert!(robot.state(&last.pose, &last.q).unwrap().residual < 1e-12);
 }
 
@@ -113,7 +114,7 @@ fn limits_are_met_where_the_joints_are_told_to_go() {
         assert_eq!(check.within_limits, Some(false));
         let mut obstacles = check.obstacle.iter().chain(&check.further);
         let met = obstacles.find(|o| o.asked == Asked::Limit).unwrap();
-        assert!(met.proved && met.constraint == Constraint::Limit(1, 0), "{met:?}");
+        assert!(met.proved && met.constraint == Constraint::Limit(LegIndex::new(1), 0), "{met:?}");
         assert!(
             met.t.0 <= expected && expected <= met.t.1 && met.t.1 - met.t.0 < 1e-6,
             "{expected}: {met:?}"

@@ -5,7 +5,7 @@ use crate::random::Random;
 use aspecta::Kinematics;
 use aspecta::kinematics::constraints::{Constraint, Margins};
 use aspecta::motion::{Asked, Joined, PathCheck, PathError, PathOptions, check_poses};
-use aspecta::robot::Robot;
+use aspecta::robot::{LegIndex, Robot};
 
 /// Brute force: the verdict is what fine sampling shows, as far as that shows anything.
 fn compare(robot: &Robot, check: &PathCheck) {
@@ -129,7 +129,10 @@ fn a_margin_is_lost_where_the_closed_form_says() {
         let height = (89.0 + 80.0 * (1.0 - serial * serial).sqrt() - 25.0f64).sqrt();
         let expected = (height - 7.0) / 7.0;
         let obstacle = check.obstacle.as_ref().unwrap();
-        assert_eq!((obstacle.asked, obstacle.constraint), (Asked::Margin, Constraint::Reach(1)));
+        assert_eq!(
+            (obstacle.asked, obstacle.constraint),
+            (Asked::Margin, Constraint::Reach(LegIndex::new(1)))
+        );
         assert!(obstacle.proved && (obstacle.t.0 - expected).abs() < 1e-8, "{expected}: {obstacle:?}");
         assert_eq!((check.keeps_margins, check.is_sound()), (Some(false), false));
         // The singularity itself comes later: (4, 12) stretches the leg.

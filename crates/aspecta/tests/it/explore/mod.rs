@@ -111,7 +111,7 @@ fn effort(samples: usize) -> Effort {
 }
 
 fn planned(robot: &Robot, ends: [&[f64]; 2], options: &PlanOptions) -> Result<Plan, NoWay> {
-    plan(robot, robot.working_modes()[0], ends, options, &effort(20_000), &Control::unwatched())
+    plan(robot, ends, robot.working_modes()[0], options, &effort(20_000), &Control::unwatched())
 }
 
 /// Non-singular changes of assembly mode: all direct solutions with one sign of det A lie in one aspect, 20 of each.
@@ -211,8 +211,8 @@ fn a_window_is_not_left() {
         let ends = [&pair[0][..], &pair[1]];
         let Ok(plan) = plan(
             &robot,
-            robot.working_modes()[0],
             ends,
+            robot.working_modes()[0],
             &PlanOptions::default(),
             &effort(4000),
             &Control::unwatched(),
@@ -234,8 +234,8 @@ fn what_is_not_joined_within_the_budget_is_said_to_be_undecided() {
     let mode = robot.working_modes()[0];
     let none = plan(
         &robot,
-        mode,
         [&poses[0], &poses[1]],
+        mode,
         &PlanOptions::default(),
         &effort(0),
         &Control::unwatched(),

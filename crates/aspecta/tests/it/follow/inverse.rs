@@ -4,6 +4,7 @@ use super::{closed_path, robot, start};
 use crate::random::Random;
 use aspecta::Kinematics;
 use aspecta::motion::follow::{InverseFollower, Refusal, StartError};
+use aspecta::robot::LegIndex;
 use std::f64::consts::TAU;
 
 /// Along random paths q is the inverse solution of the mode, but for full turns, and changes little from step to step.
@@ -62,7 +63,8 @@ fn the_end_of_reach_is_refused() {
             [0.8 * r, 0.6 * r]
         };
         let refusal = (1..=steps).find_map(|i| follower.step(&pose(i)).err()).expect("a leg of length 13");
-        let Refusal::Serial { leg: 1, proved, singular_at, distance } = refusal else { panic!("{refusal}") };
+        let Refusal::Serial { leg, proved, singular_at, distance } = refusal else { panic!("{refusal}") };
+        assert_eq!(leg, LegIndex::new(0));
         let (x, y) = (follower.pose()[0], follower.pose()[1]);
         let step = 3.5 / steps as f64;
         let reach = |t: f64| x.hypot(y) + t * step;
@@ -98,7 +100,7 @@ fn a_start_out_of_reach_is_refused() {
     let robot = robot("five-bar");
     let at =
         |pose: &[f64], mode: &str| InverseFollower::new(&robot, pose, mode.parse().unwrap()).unwrap_err();
-    assert_eq!(at(&[-20.0, 0.0], "++"), StartError::OutOfReach { leg: 1 });
+    assert_eq!(at(&[-20.0, 0.0], "++"), StartError::OutOfReach { leg: LegIndex::new(0) });
     assert!(matches!(at(&[4.0, 7.0], "+++"), StartError::Mode { .. }));
     assert!(matches!(at(&[4.0, f64::NAN], "++"), StartError::Kinematics(_)));
 }

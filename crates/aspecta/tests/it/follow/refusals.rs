@@ -4,7 +4,7 @@ use super::{apart, follower, robot, start};
 use crate::random::{self, Random, Spread};
 use aspecta::Kinematics;
 use aspecta::motion::follow::{BadInput, Follower, Refusal, StartError};
-use aspecta::robot::{Platform, Robot};
+use aspecta::robot::{LegIndex, Platform, Robot};
 use proptest::prelude::*;
 
 /// Steps towards `goal` until one is refused; the refusal, and the joint vector that was refused.
@@ -187,7 +187,7 @@ fn bad_input_is_named() {
     assert_eq!(refused(&[1.0, 2.0]), BadInput::Length { wanted: 3, found: 2 });
     assert_eq!(refused(&[1.0]).to_string(), "1 number given, but the robot has 3 coordinates");
     assert!(refused(&[14.98, 15.38, 1e300]).to_string().starts_with("coordinate 3 is 1e300: "));
-    assert_eq!(refused(&[14.98, -1.0, 12.0]), BadInput::StrutLength { leg: 2, value: -1.0 });
+    assert_eq!(refused(&[14.98, -1.0, 12.0]), BadInput::StrutLength { leg: LegIndex::new(1), value: -1.0 });
     for bad in [f64::NAN, f64::INFINITY, 1e8] {
         assert!(matches!(refused(&[14.98, 15.38, bad]), BadInput::Number { index: 3, .. }));
     }

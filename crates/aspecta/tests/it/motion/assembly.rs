@@ -19,7 +19,7 @@ fn solutions_in_one_aspect_can_be_changed_into_each_other() {
     for a in &found.solutions {
         for b in found.solutions.iter().filter(|b| b.number != a.number) {
             let (from, to) = (&a.solution, &b.solution);
-            let result = planner.plan(from.mode, &from.pose, &to.pose, &PlanOptions::default());
+            let result = planner.plan(&from.pose, &to.pose, from.mode, &PlanOptions::default());
             if a.aspect == b.aspect {
                 let plan = result.unwrap();
                 assert_sound(&robot, &plan);
@@ -39,7 +39,7 @@ fn a_change_goes_round_a_cusp() {
     let analysis = analysed(&robot, 6, &[]);
     let found = assembly_modes(&analysis, &[14.98, 15.38, 12.0]).unwrap();
     let [a, b] = [&found.solutions[1].solution, &found.solutions[2].solution];
-    let plan = Planner::new(&analysis).plan(a.mode, &a.pose, &b.pose, &PlanOptions::default()).unwrap();
+    let plan = Planner::new(&analysis).plan(&a.pose, &b.pose, a.mode, &PlanOptions::default()).unwrap();
     let folds = folds(&robot, &plan);
     assert!(!folds.is_empty());
     for fold in &folds {

@@ -2,11 +2,12 @@
 
 use super::*;
 use aspecta::Kinematics;
-use aspecta::aspect::DetSign;
+use aspecta::aspect::{AspectId, ClassId, DetSign, Place};
 use aspecta::kinematics::constraints::Margins;
 use aspecta::motion::modes::{Configuration, ModeGraph, NoRoute};
 use aspecta::motion::plan::{PlanOptions, Planner};
 use aspecta::motion::time::{JointLimits, trajectory};
+use aspecta::robot::LegIndex;
 
 /// The paper's, with its ten aspects and their graph.
 fn five_bar() -> (Robot, Analysis, ModeGraph) {
@@ -30,7 +31,7 @@ fn det(robot: &Robot, pose: &[f64], mode: WorkingMode) -> Option<f64> {
 fn the_five_bars_ten_aspects_are_two_sets_of_five() {
     let (robot, _, graph) = five_bar();
     assert_eq!(graph.aspects.len(), 10);
-    let signs = |group: &Vec<usize>| -> Vec<DetSign> {
+    let signs = |group: &Vec<AspectId>| -> Vec<DetSign> {
         graph.aspects.iter().filter(|a| group.contains(&a.id)).map(|a| a.det_a).collect()
     };
     assert_eq!(graph.groups.len(), 2);
@@ -40,7 +41,7 @@ fn the_five_bars_ten_aspects_are_two_sets_of_five() {
     for crossing in &graph.crossings {
         assert!(crossing.is_proved(&robot, Margins::default()));
         // At the crossing the leg is stretched or folded: its two postures are one.
-        let leg = &robot.leg_solutions(&crossing.pose).unwrap()[crossing.leg - 1];
+        let leg = &robot.leg_solutions(&crossing.pose).unwrap()[crossing.leg.index()];
         assert!(leg.reach.abs() < 1e-9, "{crossing:?}");
         // On the way there both modes have the same sign of det A.
         for i in 0..40 {
@@ -53,6 +54,24 @@ fn the_five_bars_ten_aspects_are_two_sets_of_five() {
             }
         }
     }
+}
+
+/// Numbers that nothing has are answered, and never a panic.
+#[test]
+fn numbers_that_nothing_has_lead_nowhere() {
+    let (_, analysis, graph) = five_bar();
+    let (first, class) = (AspectId::new(1), ClassId::new(8));
+    for none in [0, 11].map(AspectId::new) {
+        assert!(analysis.aspect(none).is_none() && analysis.rank(none).is_none() && !analysis.is_one(none));
+        assert_eq!(
+            [graph.way(none, first), graph.way(first, none), graph.way(none, none)],
+            [None, None, None]
+        );
+    }
+    assert_eq!(graph.way(first, first), Some(Vec::new()));
+    let pose = [4.0, 7.0];
+    assert_eq!((analysis.locate(&pose, class), analysis.aspect_at(&pose, class)), (Place::Outside, None));
+    assert!(analysis.cells(class).is_empty() && analysis.paving_of(class).is_none());
 }
 
 /// Mirroring the five-bar's plane turns det A and both modes about: its graph is symmetric.
@@ -78,7 +97,7 @@ fn a_planted_fault_is_not_proved() {
         let mut wrong_sign = crossing.clone();
         wrong_sign.det_a = crossing.det_a.opposite();
         let mut wrong_leg = crossing.clone();
-        wrong_leg.leg = 3 - crossing.leg;
+        wrong_leg.leg = LegIndex::new(1 - crossing.leg.index());
         let mut too_short = crossing.clone();
         too_short.beyond.clone_from(&crossing.inside);
         let mut out_of_reach = crossing.clone();
@@ -107,7 +126,7 @@ fn a_route_through_three_modes() {
     for (k, crossing) in route.crossings.iter().enumerate() {
         assert!(crossing.is_proved(&robot, Margins::default()));
         let [before, after] = [&route.stretches[k], &route.stretches[k + 1]];
-        assert_eq!(before.mode.with_other_posture(crossing.leg - 1), after.mode);
+        assert_eq!(before.mode.with_other_posture(crossing.leg), after.mode);
         assert_eq!(before.waypoints[before.waypoints.len() - 1], crossing.inside);
         assert_eq!(after.waypoints[0], crossing.inside);
     }
@@ -135,7 +154,7 @@ fn groups_of_aspects_that_may_be_several_are_not_proved() {
     assert!(graph.groups.iter().any(|group| !graph.is_proved(group)));
     for aspect in &graph.aspects {
         let (class, found) = coarse.aspect(aspect.id).unwrap();
-        assert_eq!(aspect.is_one, coarse.classes[class].high.is_some() && found.pieces == 1);
+        assert_eq!(aspect.is_one, coarse.classes[class.index()].high.is_some() && found.pieces == 1);
     }
 }
 

@@ -6,7 +6,7 @@ use aspecta::Kinematics;
 use aspecta::kinematics::constraints::Margins;
 use aspecta::motion::plan::{End, PlanOptions, Planner, Refusal};
 use aspecta::motion::{Joined, PathOptions, check_poses};
-use aspecta::robot::Platform;
+use aspecta::robot::{LegIndex, Platform};
 
 /// How many random pairs of poses were planned, proved apart, and left undecided.
 fn pairs(name: &str, depth: u32, signs: &str, count: usize) -> [usize; 3] {
@@ -18,7 +18,7 @@ fn pairs(name: &str, depth: u32, signs: &str, count: usize) -> [usize; 3] {
     let mut seen = [0; 3];
     for _ in 0..count {
         let [start, goal] = [(); 2].map(|()| pose_in(&analysis, mode, &mut random).unwrap());
-        match planner.plan(mode, &start, &goal, &PlanOptions::default()) {
+        match planner.plan(&start, &goal, mode, &PlanOptions::default()) {
             Ok(plan) => {
                 seen[0] += 1;
                 assert_sound(&robot, &plan);
@@ -94,7 +94,7 @@ fn a_better_path_than_that_of_table_4() {
     let mut planner = Planner::new(&analysis);
     let mut plan = |weight| {
         let options = PlanOptions { weight, ..PlanOptions::default() };
-        let plan = planner.plan(mode("+++"), &TABLE_4[0], &TABLE_4[1], &options).unwrap();
+        let plan = planner.plan(&TABLE_4[0], &TABLE_4[1], mode("+++"), &options).unwrap();
         assert_sound(&robot, &plan);
         (least_det(&robot, &plan), plan.length)
     };
@@ -115,7 +115,7 @@ fn margins_are_kept_all_along() {
     let mut planned = 0;
     for _ in 0..60 {
         let [start, goal] = [(); 2].map(|()| pose_in(&analysis, mode("+-"), &mut random).unwrap());
-        let Ok(plan) = planner.plan(mode("+-"), &start, &goal, &options) else { continue };
+        let Ok(plan) = planner.plan(&start, &goal, mode("+-"), &options) else { continue };
         planned += 1;
         assert_sound(&robot, &plan);
         for (det_a, serial) in sampled(&robot, &plan) {
@@ -125,7 +125,7 @@ fn margins_are_kept_all_along() {
         }
     }
     assert!(planned > 3, "{planned}");
-    let near = planner.plan(mode("+-"), &[0.5858, 9.9], &[0.59, 9.8], &options);
+    let near = planner.plan(&[0.5858, 9.9], &[0.59, 9.8], mode("+-"), &options);
     assert_eq!(near, Err(Refusal::Margins(End::Start)));
 }
 
@@ -134,7 +134,7 @@ fn margins_are_kept_all_along() {
 fn a_planted_fault_is_not_proved() {
     let robot = robot("five-bar");
     let analysis = analysed(&robot, 10, &["+-"]);
-    let plan = Planner::new(&analysis).plan(mode("+-"), &[4.0, 7.0], &[5.0, -7.0], &PlanOptions::default());
+    let plan = Planner::new(&analysis).plan(&[4.0, 7.0], &[5.0, -7.0], mode("+-"), &PlanOptions::default());
     let plan = plan.unwrap();
     assert!(plan.waypoints.len() > 3);
     let proved = |waypoints: &[Vec<f64>], margins: Margins| {
@@ -161,7 +161,7 @@ fn the_shortest_way_is_straight_where_it_can_be() {
     let robot = robot("five-bar");
     let analysis = analysed(&robot, 9, &["+-"]);
     let shortest = PlanOptions { weight: 0.0, ..PlanOptions::default() };
-    let plan = Planner::new(&analysis).plan(mode("+-"), &[4.0, 7.0], &[1.0, 10.0], &shortest).unwrap();
+    let plan = Planner::new(&analysis).plan(&[4.0, 7.0], &[1.0, 10.0], mode("+-"), &shortest).unwrap();
     assert_eq!(plan.waypoints, [[4.0, 7.0], [1.0, 10.0]]);
     assert!((plan.length - 18f64.sqrt()).abs() < 1e-12);
 }
@@ -172,10 +172,13 @@ fn refusals_name_what_is_wrong() {
     let analysis = analysed(&five_bar, 9, &["+-"]);
     let mut planner = Planner::new(&analysis);
     let mut refusal = |start: &[f64], goal: &[f64], signs: &str| {
-        planner.plan(mode(signs), start, goal, &PlanOptions::default()).unwrap_err()
+        planner.plan(start, goal, mode(signs), &PlanOptions::default()).unwrap_err()
     };
     let inside = [4.0, 7.0];
-    assert_eq!(refusal(&inside, &[40.0, 7.0], "+-"), Refusal::OutOfReach { end: End::Goal, leg: 1 });
+    assert_eq!(
+        refusal(&inside, &[40.0, 7.0], "+-"),
+        Refusal::OutOfReach { end: End::Goal, leg: LegIndex::new(0) }
+    );
     assert_eq!(refusal(&inside, &inside, "++"), Refusal::Mode(mode("++")));
     assert!(matches!(refusal(&[1.0], &inside, "+-"), Refusal::Pose { end: End::Start, .. }));
     assert!(matches!(refusal(&inside, &[f64::NAN, 0.0], "+-"), Refusal::Pose { end: End::Goal, .. }));
@@ -183,7 +186,7 @@ fn refusals_name_what_is_wrong() {
     assert_eq!(refusal(&[5.0, 12.0], &inside, "+-"), Refusal::OnBoundary(End::Start));
     let rpr = robot("3-rpr");
     let analysis = analysed(&rpr, 4, &[]);
-    let beyond = Planner::new(&analysis).plan(mode("---"), &[0.0; 3], &[0.0; 3], &PlanOptions::default());
+    let beyond = Planner::new(&analysis).plan(&[0.0; 3], &[0.0; 3], mode("---"), &PlanOptions::default());
     assert!(matches!(beyond, Err(Refusal::BeyondLimit { end: End::Start, .. })), "{beyond:?}");
 }
 
@@ -206,7 +209,7 @@ fn random_robots_are_planned_soundly() {
             for mode in robot.working_modes().into_iter().take(2) {
                 let drawn = [(); 2].map(|()| pose_in(&analysis, mode, &mut random));
                 let [Some(start), Some(goal)] = drawn else { continue };
-                match planner.plan(mode, &start, &goal, &PlanOptions::default()) {
+                match planner.plan(&start, &goal, mode, &PlanOptions::default()) {
                     Ok(plan) => {
                         seen[0] += 1;
                         assert_sound(&robot, &plan);

@@ -2,7 +2,7 @@
 
 use super::*;
 use aspecta::Kinematics;
-use aspecta::aspect::Place;
+use aspecta::aspect::{AspectId, ClassId, Place};
 use aspecta::motion::modes::ModeGraph;
 use aspecta::motion::traverse::{Holds, PoseSet, traversability};
 
@@ -40,7 +40,9 @@ fn boxes_are_held_as_samples_are() {
                             let pose: Vec<f64> =
                                 ranges.iter().map(|(lo, hi)| random.within(*lo, *hi)).collect();
                             assert!(is_in(&analysis, k, &pose), "{name} {pose:?} {class:?}");
-                            if let (Some(id), Place::Inside(other)) = (aspect, analysis.locate(k, &pose)) {
+                            if let (Some(id), Place::Inside(other)) =
+                                (aspect, analysis.locate(&pose, ClassId::new(k)))
+                            {
                                 assert_eq!(*id, other);
                             }
                         }
@@ -69,16 +71,16 @@ fn separate_poses_may_need_changes_of_mode() {
         (held, found.groups.iter().filter(|group| group.certified).count())
     };
     // Table 2's two aspects of mode (−, +) with det A > 0, and a pose of each.
-    let of = |id: usize| analysis.aspect(id).unwrap().1.sample.pose.clone();
+    let of = |id: AspectId| analysis.aspect(id).unwrap().1.sample.pose.clone();
     let class = analysis.classes.iter().find(|c| c.aspects.len() == 2).unwrap();
     let samples: Vec<[f64; 2]> = class.aspects.iter().map(|a| [of(a.id)[0], of(a.id)[1]]).collect();
     let k = analysis.class_of(class.mode, class.det_a).unwrap();
     let set = PoseSet::Poses(samples.iter().map(|p| p.to_vec()).collect());
     let found = traversability(&analysis, None, set).unwrap();
     assert!(
-        matches!(found.classes[k].holds, Holds::NotWhole { constraint: None, .. }),
+        matches!(found.classes[k.index()].holds, Holds::NotWhole { constraint: None, .. }),
         "{:?}",
-        found.classes[k]
+        found.classes[k.index()]
     );
     assert!(whole(&samples).1 > 0);
     assert_eq!(whole(&[[4.0, 7.0], [40.0, 7.0]]), (0, 0));
