@@ -81,7 +81,7 @@ pub trait Kinematics {
     ///
     /// let robot = catalogue::find("five-bar").unwrap();
     /// let beyond = robot.out_of_reach(&[15.0, 0.0])?; // leg 1 is 13 long at most
-    /// assert_eq!(beyond[0].leg, 1);
+    /// assert_eq!(beyond[0].leg.number(), 1);
     /// assert!((beyond[0].gap - 2.0).abs() < 1e-12);
     /// # Ok::<(), aspecta_kinematics::KinematicsError>(())
     /// ```
@@ -165,7 +165,7 @@ pub trait Kinematics {
     ///
     /// # Examples
     /// ```
-    /// use aspecta_kinematics::{Kinematics, Singularity};
+    /// use aspecta_kinematics::{Kinematics, LegIndex, Singularity};
     /// use aspecta_robot::catalogue;
     ///
     /// let robot = catalogue::find("five-bar").unwrap();
@@ -176,7 +176,7 @@ pub trait Kinematics {
     ///
     /// // Leg 1 stretched: Definition 4.
     /// let stretched = robot.inverse(&[13.0, 0.0])?[0].q.clone();
-    /// assert_eq!(robot.state(&[13.0, 0.0], &stretched)?.serial_legs, [1]);
+    /// assert_eq!(robot.state(&[13.0, 0.0], &stretched)?.serial_legs, [LegIndex::new(0)]);
     /// # Ok::<(), aspecta_kinematics::KinematicsError>(())
     /// ```
     fn state(&self, pose: &[f64], q: &[f64]) -> Result<State, KinematicsError>;

@@ -39,7 +39,7 @@ pub struct DomainsSummary<'a> {
 ///
 /// # Examples
 /// ```
-/// use aspecta::{Budget, Control, DomainOptions, Options, Robot, analyze, domains};
+/// use aspecta::{AspectId, Budget, Control, DomainOptions, Options, Robot, analyze, domains};
 ///
 /// # fn main() -> Result<(), aspecta::Error> {
 /// let robot = Robot::resolve("five-bar")?;
@@ -49,7 +49,7 @@ pub struct DomainsSummary<'a> {
 /// let analysis = analyze(&robot, &options, &Control::unwatched())?;
 ///
 /// let options = DomainOptions { cells: 20, samples: 100 };
-/// let summary = domains(&analysis, 1, options, &Control::unwatched())?.to_string();
+/// let summary = domains(&analysis, AspectId::new(1), &options, &Control::unwatched())?.to_string();
 /// assert!(summary.contains("  region    area  solutions  x [unit]  y [unit]  image meets that of"));
 /// # Ok(())
 /// # }

@@ -87,7 +87,7 @@ impl fmt::Display for Route {
 /// let analysis = analyze(&robot, &options, &Control::unwatched())?;
 ///
 /// let mut planner = Planner::new(&analysis);
-/// let plan = planner.plan("++".parse()?, &[4.0, 7.0], &[5.0, 6.0], &PlanOptions::default())?;
+/// let plan = planner.plan(&[4.0, 7.0], &[5.0, 6.0], "++".parse()?, &PlanOptions::default())?;
 /// assert!(plan.to_string().contains("singularity-free  yes, certified, limits and margins included"));
 /// # Ok(())
 /// # }
