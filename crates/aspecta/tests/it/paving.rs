@@ -15,6 +15,7 @@ use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 use std::collections::BTreeSet;
 use std::f64::consts::{PI, TAU};
+use std::sync::LazyLock;
 use std::sync::atomic::AtomicBool;
 
 fn to_depth(depth: u32) -> Budget {
@@ -276,9 +277,11 @@ fn pose_in(paving: &Paving, node: u32, dice: &mut Dice) -> Vec<f64> {
     pose
 }
 
-fn analyzed(robot: &Robot) -> Option<Analysis> {
-    analyzed_slice(robot, Vec::new())
-}
+/// Robots of each family, analysed, with further numbers drawn for each.
+static ANALYSED: LazyLock<Vec<(usize, Analysis, Vec<f64>)>> = LazyLock::new(|| {
+    let analysed = |(family, robot, rest)| Some((family, analyzed_slice(&robot, Vec::new())?, rest));
+    robots(40).filter_map(analysed).collect()
+});
 
 fn analyzed_slice(robot: &Robot, fix: Vec<(usize, f64)>) -> Option<Analysis> {
     let depth = [10, 7, 4][robot.dof() - fix.len() - 1];
@@ -298,16 +301,15 @@ fn classes(paving: &Paving) -> impl Iterator<Item = (usize, WorkingMode, DetSign
 #[test]
 fn certificates_hold() {
     let mut seen = [[0usize; 4]; FAMILIES];
-    for (family, robot, rest) in robots(40) {
-        let Some(analysis) = analyzed(&robot) else { continue };
-        let paving = &analysis.pavings[0];
+    for (family, analysis, rest) in &*ANALYSED {
+        let (robot, paving) = (&analysis.robot, &analysis.pavings[0]);
         let mut dice = Dice(rest.iter());
-        let seen = &mut seen[family];
+        let seen = &mut seen[*family];
         for _ in 0..100 {
             let node =
                 (dice.between(0.0, paving.nodes.len() as f64) as u32).min(paving.nodes.len() as u32 - 1);
             let x = pose_in(paving, node, &mut dice);
-            check_box(&robot, &paving.nodes[node as usize], paving, &x, seen);
+            check_box(robot, &paving.nodes[node as usize], paving, &x, seen);
         }
     }
     // Of every family the test has seen boxes inside, outside with the mode existing, closed, and out of reach.
@@ -376,13 +378,13 @@ fn check_box(robot: &Robot, node: &Node, paving: &Paving, x: &[f64], seen: &mut 
 #[test]
 fn located_poses_are_where_they_are_said_to_be() {
     let mut seen = [0usize; 2];
-    for (_, robot, rest) in robots(30) {
-        let Some(analysis) = analyzed(&robot) else { continue };
+    for (_, analysis, rest) in &*ANALYSED {
+        let robot = &analysis.robot;
         let mut dice = Dice(rest.iter());
         for _ in 0..100 {
             let x = pose_in(&analysis.pavings[0], 0, &mut dice);
             for (class, mode, sign) in classes(&analysis.pavings[0]) {
-                let is_member = member(&robot, mode, sign, &x);
+                let is_member = member(robot, mode, sign, &x);
                 match analysis.locate(&x, ClassId::new(class)) {
                     Place::Inside(id) => {
                         seen[0] += 1;
@@ -391,7 +393,7 @@ fn located_poses_are_where_they_are_said_to_be() {
                             (analysis.classes[class].mode, analysis.classes[class].det_a),
                             (mode, sign)
                         );
-                        check_bounds(&analysis, class, id, &x);
+                        check_bounds(analysis, class, id, &x);
                     }
                     Place::Outside => {
                         seen[1] += 1;

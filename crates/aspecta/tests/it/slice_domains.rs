@@ -42,13 +42,13 @@ fn solutions(analysis: &Analysis, found: &Domains, pose: &[f64]) -> usize {
 #[test]
 fn slices_agree_with_the_whole() {
     let robot = robot("3-rrr");
-    let whole = analyzed(&robot, &[], &[], 7);
+    let whole = analyzed(&robot, &[], &["+++"], 7);
     let id = first_of(&whole, "+++", DetSign::Positive);
     let all = partitioned(&whole, id, 100, 0);
     assert_eq!(all.regions.len(), 7);
     let mut coincident = 0;
     for phi in [-0.62, -0.32, 0.3, 0.46, 0.7] {
-        let on = analyzed(&robot, &[(2, phi)], &[], 9);
+        let on = analyzed(&robot, &[(2, phi)], &["+++"], 9);
         let found = partitioned(&on, first_of(&on, "+++", DetSign::Positive), 120, 2_000);
         let agreement = &found.agreement;
         assert!(agreement.agree as f64 > 0.995 * agreement.away as f64, "{agreement:?}");

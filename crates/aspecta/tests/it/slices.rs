@@ -298,7 +298,7 @@ fn slices_agree_with_the_whole() {
         ("five-bar", vec![vec![(0, 1.0)], vec![(1, 2.0)]]),
     ] {
         let robot = robot(name);
-        let whole = analyzed(&robot, if robot.dof() == 2 { 9 } else { 6 }, &[]);
+        let whole = analyzed(&robot, if robot.dof() == 2 { 9 } else { 5 }, &[]);
         for fix in fixes {
             let slice = analyzed(&robot, 8, &fix);
             let found = check_consistency(&whole, &slice);
@@ -338,7 +338,8 @@ fn moved(turn: f64, shift: [f64; 2], scale: f64, origin: [f64; 2]) -> Robot {
 fn slices_do_not_depend_on_place_direction_unit_and_frame() {
     let counts = |a: &Analysis| a.classes.iter().map(|c| (c.low, c.high)).collect::<Vec<_>>();
     let analyzed = |robot: &Robot, fix: &[(usize, f64)]| {
-        let options = Options { fix: fix.to_vec(), ..Options::default() };
+        let modes = ["+++", "-+-"].map(|mode| mode.parse().unwrap()).to_vec();
+        let options = Options { fix: fix.to_vec(), modes, ..Options::default() };
         analyze(robot, &options, &Control::unwatched()).unwrap()
     };
     let area = |a: &Analysis| a.classes.iter().map(|c| c.measure).sum::<f64>();
