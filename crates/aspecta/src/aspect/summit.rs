@@ -49,7 +49,8 @@ use std::cell::LazyCell;
 use view::View;
 use way::Way;
 
-/// More constraints than any robot file can bring to bear on one box at once.
+/// Constraints that are compared over one box: more than any robot file brings to bear at once. Of a box with
+/// more nothing is proved.
 const MOST: usize = 64;
 
 /// Returns, of the classes asked of each box, those proved to have no summit there.
@@ -191,7 +192,7 @@ impl<'a, const D: usize, const N: usize, const M: usize> Eight<'a, D, N, M> {
             let det = Determinant::new(view, &way.legs, mode);
             for (l, frame) in frames.iter().enumerate().filter(|(l, _)| asked[*l] >> (2 * m) & 3 != 0) {
                 let Some(frame) = frame else { continue };
-                let common = way.constraints(frame, mode, l);
+                let Some(common) = way.constraints(frame, mode, l) else { continue };
                 let det = det.growth(frame, mode, view.scale, l);
                 for (sign, bit) in [(1.0, 1 << (2 * m)), (-1.0, 2 << (2 * m))] {
                     if asked[l] & bit != 0 && can_climb(&common, &det.signed(sign)) {
@@ -214,8 +215,8 @@ impl<'a, const D: usize, const N: usize, const M: usize> Eight<'a, D, N, M> {
     ) -> ClassSet {
         let view = &self.view;
         let Some(frame) = Frame::new(view, &way.legs, lane) else { return 0 };
-        let least =
-            way.constraints(&frame, mode, lane).iter().fold(f64::INFINITY, |least, g| least.min(g.value.lo));
+        let Some(all) = way.constraints(&frame, mode, lane) else { return 0 };
+        let least = all.iter().fold(f64::INFINITY, |least, g| least.min(g.value.lo));
         let det = Determinant::new(view, &way.legs, mode).growth(&frame, mode, view.scale, lane).value;
         if least <= 0.0 || det.magnitude() >= least {
             return 0;

@@ -55,17 +55,18 @@ impl<'a, const D: usize, const N: usize, const M: usize> Way<'a, D, N, M> {
         }
     }
 
-    /// Returns all constraints but det A, and the ends of the window, in one box.
+    /// Returns all constraints but det A, and the ends of the window, in one box; `None` if they are more than
+    /// [`MOST`], so that nothing may be proved of it: one that is left out could be the least.
     pub(super) fn constraints(
         &self,
         frame: &Frame<N, M>,
         mode: WorkingMode,
         lane: usize,
-    ) -> ArrayVec<Growth<M>, MOST> {
+    ) -> Option<ArrayVec<Growth<M>, MOST>> {
         let Self { view, legs, .. } = self;
-        let mut all = ArrayVec::new();
+        let (mut all, mut fit) = (ArrayVec::new(), true);
         let mut add = |value: Interval, scale: f64, along| {
-            let _ = all.try_push(Growth { value: value / Interval::point(scale), along });
+            fit &= all.try_push(Growth { value: value / Interval::point(scale), along }).is_ok();
         };
         let sign = |j: usize| f64::from(mode.sign(j));
         for bound in &self.bounds {
@@ -100,7 +101,7 @@ impl<'a, const D: usize, const N: usize, const M: usize> Way<'a, D, N, M> {
                 }
             }
         }
-        all
+        fit.then_some(all)
     }
 
     /// The derivatives of H_j, or of an increasing function of it.
