@@ -22,7 +22,7 @@ use std::fmt::{self, Write};
 /// let pose = [0.535, -0.75, -0.39, -2.785, -0.973, 1.06];
 /// let goal = [0.55, -0.75, -0.39, -2.785, -0.973, 1.06];
 /// let effort = Effort { samples: 100, ..Effort::default() };
-/// let found = plan(&robot, mode, [&pose, &goal], &PlanOptions::default(), &effort, &Control::unwatched())?;
+/// let found = plan(&robot, [&pose, &goal], mode, &PlanOptions::default(), &effort, &Control::unwatched())?;
 ///
 /// let route = Route::from(found);
 /// let checks = route.checks()?;
