@@ -64,26 +64,30 @@ fn certified(robot: &Robot) -> Table {
 
 // The catalogue.
 
-fn assert_exactly(count: usize, name: &str, fix: &[(usize, f64)]) {
-    let analysis = analyzed(&find(name), &Options { fix: fix.to_vec(), ..Options::default() });
+fn assert_exactly(count: usize, name: &str, options: &Options) -> Analysis {
+    let analysis = analyzed(&find(name), options);
     check_bounds(&analysis);
     assert_eq!((analysis.aspects.low, analysis.aspects.high), (count, Some(count)), "{name}");
     assert_eq!(analysis.run.stop, Stop::Exact);
+    analysis
+}
+
+/// The slice of figure 13, of which the paper counts 25 aspects after a filter by size.
+fn figure_13() -> Options {
+    Options { fix: vec![(2, 0.0)], ..Options::default() }
 }
 
 #[test]
 fn robots_of_the_catalogue() {
     for (name, count) in [("2-prr", 6), ("3-rpr", 2), ("linear-delta", 14), ("orthoglide", 9)] {
-        assert_exactly(count, name, &[]);
+        assert_exactly(count, name, &Options::default());
     }
-    // The paper's figure 13 has 25 after a filter by size.
-    assert_exactly(27, "3-rrr", &[(2, 0.0)]);
+    assert_exactly(27, "3-rrr", &figure_13());
 }
 
-/// Its certificate, checked, proves the count.
-fn assert_verified(count: usize, name: &str, fix: &[(usize, f64)]) {
-    let options = Options { fix: fix.to_vec(), certificate: true, ..Options::default() };
-    let analysis = analyzed(&find(name), &options);
+/// So many, and the certificate, checked, proves it.
+fn assert_verified(count: usize, name: &str, options: Options) {
+    let analysis = assert_exactly(count, name, &Options { certificate: true, ..options });
     let verdict = verify(&analysis.certificate.unwrap(), &Control::unwatched());
     assert!(verdict.is_verified(), "{name}: {:?}", verdict.faults);
     let proved: (usize, Option<usize>) = (
@@ -95,31 +99,25 @@ fn assert_verified(count: usize, name: &str, fix: &[(usize, f64)]) {
 
 #[test]
 fn certificates_are_verified() {
-    assert_verified(10, "five-bar", &[]);
-    assert_verified(10, "symmetric-five-bar", &[]);
+    for name in ["five-bar", "symmetric-five-bar"] {
+        assert_verified(10, name, Options::default());
+    }
+}
+
+#[test]
+fn the_certificate_of_a_mode_of_a_slice_is_verified() {
+    assert_verified(3, "3-rrr", Options { modes: vec!["+-+".parse().unwrap()], ..figure_13() });
 }
 
 #[test]
 #[ignore = "a minute: eight modes"]
 fn the_certificate_of_a_slice_is_verified() {
-    assert_verified(27, "3-rrr", &[(2, 0.0)]);
-}
-
-#[test]
-fn the_certificate_of_a_mode_of_a_slice_is_verified() {
-    let modes = vec!["+-+".parse().unwrap()];
-    let options = Options { fix: vec![(2, 0.0)], modes, certificate: true, ..Options::default() };
-    let analysis = analyzed(&find("3-rrr"), &options);
-    let verdict = verify(&analysis.certificate.unwrap(), &Control::unwatched());
-    assert!(verdict.is_verified(), "{:?}", verdict.faults);
-    for (class, checked) in analysis.classes.iter().zip(&verdict.classes) {
-        assert_eq!((checked.proved.low, checked.proved.high), (class.low, Some(class.low)));
-    }
+    assert_verified(27, "3-rrr", figure_13());
 }
 
 #[test]
 fn the_certificate_of_a_delta_is_verified() {
-    assert_verified(2, "irb-360", &[]);
+    assert_verified(2, "irb-360", Options::default());
 }
 
 // A platform that turns about a point: all orientations, in the joint angles of a leg.
