@@ -75,12 +75,10 @@ impl Coordinates for Chart {
     ) -> ArrayVec<T, 4> {
         match self {
             Self::Fold(fold) => fold::cover(fold, &legs[fold.leg.index()]),
-            Self::Chain(Chain { leg, bend: Some(bend) }) => std::iter::once(chain::cover(
-                bend,
-                &robot.legs[leg.index()].actuator,
-                &legs[leg.index()].span,
-            ))
-            .collect(),
+            Self::Chain(Chain { leg, bend: Some(bend) }) => {
+                std::iter::once(chain::cover(bend, &robot.leg(*leg).actuator, &legs[leg.index()].span))
+                    .collect()
+            }
             Self::Pose | Self::Chain(_) => ArrayVec::new(),
         }
     }

@@ -136,7 +136,7 @@ pub struct HeldJoint {
 
 impl HeldJoint {
     fn new(robot: &Robot, &(leg, value): &(LegIndex, f64)) -> Self {
-        let unit = if robot.legs[leg.index()].actuator.is_angle() { "rad" } else { &robot.length_unit };
+        let unit = if robot.leg(leg).actuator.is_angle() { "rad" } else { &robot.length_unit };
         Self { joint: format!("q{leg}"), value, unit: unit.into() }
     }
 }
@@ -275,7 +275,7 @@ fn check(robot: &Robot, options: &Options) -> Result<Vec<WorkingMode>, CuspError
         let joint =
             q.get_mut(leg.index()).ok_or_else(|| CuspError::NoSuchJoint { robot: name(), dof, leg })?;
         *joint = value;
-        if robot.legs[leg.index()].actuator.forbids(value) {
+        if robot.leg(leg).actuator.forbids(value) {
             return Err(KinematicsError::StrutLength { leg, value }.into());
         }
     }

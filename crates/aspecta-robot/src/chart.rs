@@ -143,7 +143,7 @@ impl Chain {
     /// Right-handed orthonormal axes of the platform: those that lie along m, sin b w − cos b (cos ψ n + sin
     /// ψ t) and v where ϑ = 0, with m = cos ψ t − sin ψ n.
     pub fn body(&self, robot: &Robot) -> [[Interval; 3]; 3] {
-        axes_about(&robot.legs[self.leg.index()].attachment)
+        axes_about(&robot.leg(self.leg).attachment)
     }
 
     /// The window of the chart: all of each angle, or what is near the fold.

@@ -15,7 +15,7 @@ use std::fmt;
 /// let leg = LegIndex::new(1);
 /// assert_eq!((leg.index(), leg.number()), (1, 2));
 /// assert_eq!(format!("leg {leg}"), "leg 2");
-/// assert_eq!(robot.legs[leg.index()].actuator.postures(), 2);
+/// assert_eq!(robot.leg(leg).actuator.postures(), 2);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct LegIndex(usize);

@@ -103,6 +103,15 @@ pub enum RobotError {
 }
 
 impl Robot {
+    /// One of the robot's legs.
+    ///
+    /// # Panics
+    /// If it has no such leg: [`Robot::legs`] can be asked for one that may not be there.
+    #[inline]
+    pub fn leg(&self, leg: LegIndex) -> &Leg {
+        &self.legs[leg.index()]
+    }
+
     /// A robot without window, title, source or unit.
     ///
     /// # Errors

@@ -89,7 +89,7 @@ impl<'a, T: Scalar, const D: usize> Body<'a, T, D> {
             Chart::Pose if robot.platform == Platform::TurningBody => {}
             Chart::Pose => body.origin = std::array::from_fn(|k| y[k]),
             Chart::Fold(fold) => {
-                let leg = &robot.legs[fold.leg.index()];
+                let leg = robot.leg(fold.leg);
                 let (sin, cos) = y[0].sin_cos();
                 let across = if D == 3 { y[1].square() + y[2].square() } else { y[1].square() };
                 // The rod's unit vector in the crank's frame is (radial, p, w).

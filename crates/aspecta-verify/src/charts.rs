@@ -67,7 +67,7 @@ pub(super) fn fault_of_fold(robot: &Robot, poses: &Window, fold: &Fold) -> Optio
         return Some("the chart of a fold, but a translation is held or cut by the window");
     }
     let actuator = Revolute { crank: fold.crank, rod: fold.rod };
-    if robot.legs[fold.leg.index()].actuator != actuator.into() {
+    if robot.leg(fold.leg).actuator != actuator.into() {
         return Some("the lengths of the fold are not those of the robot's leg");
     }
     let widest = fold.axial.map_or(0.0, |(lo, hi)| lo.abs().max(hi.abs()));
@@ -119,7 +119,7 @@ struct Cap {
 
 impl Cap {
     fn of(robot: &Robot, chain: &Chain) -> Option<Self> {
-        let (leg, bend) = (&robot.legs[chain.leg.index()], chain.bend.as_ref()?);
+        let (leg, bend) = (robot.leg(chain.leg), chain.bend.as_ref()?);
         let links = Links::of(leg)?;
         let ((cos_a, sin_a), (cos_b, sin_b)) = (links.proximal, links.distal);
         let side = Interval::point(if bend.back { 1.0 } else { -1.0 });

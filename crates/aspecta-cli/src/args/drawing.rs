@@ -41,8 +41,7 @@ const JOINTS: [&str; 3] = ["q1", "q2", "q3"];
 impl Drawing {
     /// Returns the choice as the library takes it.
     pub fn choice(&self) -> Choice {
-        let held =
-            JOINTS.iter().position(|joint| *joint == self.hold).map_or(LegIndex::new(2), LegIndex::new);
+        let held = LegIndex::new(JOINTS.iter().position(|joint| *joint == self.hold).unwrap_or(2));
         Choice { meshes: self.meshes.iter().copied().map(MeshFormat::from).collect(), held }
     }
 }

@@ -73,7 +73,7 @@ impl Cap {
     /// Whether no orientation is in both, by the triangle inequality on the sphere; the twentieth to spare is
     /// far beyond rounding.
     fn is_apart_from(&self, other: &Self, robot: &Robot) -> bool {
-        let joint = |cap: &Self| robot.legs[cap.chain.leg.index()].attachment.map(|x| x.mid());
+        let joint = |cap: &Self| robot.leg(cap.chain.leg).attachment.map(|x| x.mid());
         let between = |x: [f64; 3], y: [f64; 3]| dot(&x, &y).clamp(-1.0, 1.0).acos();
         let (base, body) = (between(self.end, other.end), between(joint(self), joint(other)));
         (base - body).abs() > 1.05 * (self.radius + other.radius)
@@ -142,11 +142,8 @@ mod tests {
             let mut here = Vec::new();
             for (k, chain) in found.iter().enumerate() {
                 let bend = chain.bend.as_ref().unwrap();
-                let margin = chain::cover(
-                    bend,
-                    &robot.legs[chain.leg.index()].actuator,
-                    &legs[chain.leg.index()].span,
-                );
+                let margin =
+                    chain::cover(bend, &robot.leg(chain.leg).actuator, &legs[chain.leg.index()].span);
                 let all = Chain { leg: chain.leg, bend: None };
                 let [y, _] = chain::coordinates::<3, 3>(&all, &robot, &placement.map(Interval::point));
                 let end = if bend.back { PI } else { 0.0 };

@@ -38,7 +38,7 @@ pub(super) fn at<T: Scalar, const D: usize, const N: usize>(
     robot: &Robot,
     turn: impl Fn(usize) -> (T, T),
 ) -> (Placement<T, D>, [LegClosure<T, D>; N]) {
-    let leg = &robot.legs[chain.leg.index()];
+    let leg = robot.leg(chain.leg);
     let (sin, cos) = turn(0);
     let (sin_psi, cos_psi) = match chain.bend {
         Some(Bend { back: true, .. }) => (-turn(1).0, -turn(1).1),
@@ -69,7 +69,7 @@ pub fn coordinates<const D: usize, const N: usize>(
     robot: &Robot,
     placement: &Placement<Interval, D>,
 ) -> [[Interval; N]; 2] {
-    let leg = &robot.legs[chain.leg.index()];
+    let leg = robot.leg(chain.leg);
     let [(cos_a, sin_a), (cos_b, sin_b)] = angles_of(&leg.actuator);
     let angle = |cos: Interval, sin: Interval| Interval::angle(cos, sin).unwrap_or(Interval::ENTIRE);
     let v: [Interval; D] = into_frame(leg, &placement.arm(leg));

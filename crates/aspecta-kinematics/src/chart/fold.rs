@@ -16,7 +16,7 @@ pub(super) fn at<T: Scalar, const D: usize, const N: usize>(
     y: &[T; N],
     turn: impl Fn(usize) -> (T, T),
 ) -> (Placement<T, D>, [LegClosure<T, D>; N]) {
-    let leg = &robot.legs[fold.leg.index()];
+    let leg = robot.leg(fold.leg);
     let (crank, rod) = (fold.crank, fold.rod);
     let one = T::constant(Interval::point(1.0));
     let (sin, cos) = turn(0);
@@ -140,12 +140,12 @@ impl Place {
     /// rounding.
     fn is_apart_from(&self, other: &Self, robot: &Robot, window: &Window) -> bool {
         let centre = |place: &Self| {
-            let leg = &robot.legs[place.fold.leg.index()];
+            let leg = robot.leg(place.fold.leg);
             std::array::from_fn::<f64, 3, _>(|k| leg.anchor[k].mid() + place.height * leg.frame[2][k].mid())
         };
         let still: Vec<f64> = window.ranges.iter().map(|r| r.0).collect();
         let arm = |place: &Self| -> [f64; 3] {
-            let leg = &robot.legs[place.fold.leg.index()];
+            let leg = robot.leg(place.fold.leg);
             match robot.platform {
                 Platform::FreeBody => Placement::<f64, 3>::at(robot.platform, &still).arm(leg),
                 Platform::PlanePoint

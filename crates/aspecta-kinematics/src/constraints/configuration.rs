@@ -37,7 +37,7 @@ impl<'a, T: Scalar, const D: usize, const N: usize> Configuration<'a, T, D, N> {
     pub fn margin(&self, constraint: Constraint) -> T {
         match constraint {
             Constraint::Limit(j, k) => margin(
-                &self.robot.legs[j.index()].limits[k],
+                &self.robot.leg(j).limits[k],
                 &self.leg(j.index()),
                 self.height(j.index()),
                 self.placement,
@@ -51,7 +51,7 @@ impl<'a, T: Scalar, const D: usize, const N: usize> Configuration<'a, T, D, N> {
     pub fn unit(&self, constraint: Constraint) -> T {
         match constraint {
             Constraint::Limit(j, k) => {
-                unit(&self.robot.legs[j.index()].limits[k], &self.leg(j.index()), self.height(j.index()))
+                unit(&self.robot.leg(j).limits[k], &self.leg(j.index()), self.height(j.index()))
             }
             Constraint::Reach(_) | Constraint::Det => T::constant(Interval::ENTIRE),
         }
@@ -71,8 +71,7 @@ impl<'a, T: Scalar, const D: usize, const N: usize> Configuration<'a, T, D, N> {
                 let leg = self.legs[j.index()].map(still);
                 let placement = self.placement.map(still);
                 let sh = height(j.index());
-                let (limit, at) =
-                    (&self.robot.legs[j.index()].limits[k], LegAt::of(&self.robot.legs[j.index()], &leg));
+                let (limit, at) = (&self.robot.leg(j).limits[k], LegAt::of(self.robot.leg(j), &leg));
                 (margin(limit, &at, sh, &placement) / unit(limit, &at, sh)).gradient[0]
             }
             Constraint::Reach(_) | Constraint::Det => U::constant(Interval::ENTIRE),

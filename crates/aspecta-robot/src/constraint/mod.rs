@@ -91,10 +91,7 @@ impl Constraint {
     pub fn is_of_drives(self, robot: &Robot) -> bool {
         match self {
             Self::Limit(j, k) => {
-                matches!(
-                    robot.legs[j.index()].limits[k],
-                    Limit::ActuatorAngle { .. } | Limit::ActuatorLength { .. }
-                )
+                matches!(robot.leg(j).limits[k], Limit::ActuatorAngle { .. } | Limit::ActuatorLength { .. })
             }
             Self::Reach(_) | Self::Det => false,
         }
@@ -103,7 +100,7 @@ impl Constraint {
     /// Returns its name, with the joint that it limits.
     pub fn named(self, robot: &Robot) -> String {
         match self {
-            Self::Limit(j, k) => format!("{} limit of leg {j}", robot.legs[j.index()].limits[k].joint()),
+            Self::Limit(j, k) => format!("{} limit of leg {j}", robot.leg(j).limits[k].joint()),
             Self::Reach(_) | Self::Det => self.to_string(),
         }
     }

@@ -10,7 +10,7 @@ impl<T: Scalar, const D: usize> Body<'_, T, D> {
     /// Puts the platform where the angles of a chain do: R = R_z(q) R_y(a) R_z(ψ) R_y(b) R_z(ϑ) in the leg's
     /// frame, of a platform whose joint is along z.
     pub(super) fn turn_by(&mut self, chain: &Chain, y: &[T; MOST]) {
-        let leg = &self.robot.legs[chain.leg.index()];
+        let leg = self.robot.leg(chain.leg);
         let Some(links) = Links::of(leg) else { return };
         let ((sin_q, cos_q), mut elbow, (sin_t, cos_t)) = (y[0].sin_cos(), y[1].sin_cos(), y[2].sin_cos());
         if chain.bend.as_ref().is_some_and(|bend| bend.back) {
@@ -47,7 +47,7 @@ impl<const D: usize> Body<'_, Interval, D> {
     /// The coordinates of a chain that holds all configurations: those with sin ψ ≥ 0 and those with sin ψ ≤
     /// 0; entries beyond are zero.
     pub(crate) fn joint_angles(&self, chain: &Chain) -> [[Interval; MOST]; 2] {
-        let (leg, zero) = (&self.robot.legs[chain.leg.index()], Interval::point(0.0));
+        let (leg, zero) = (self.robot.leg(chain.leg), Interval::point(0.0));
         let anything = [Interval::ENTIRE, Interval::ENTIRE, Interval::ENTIRE, zero, zero, zero];
         let Some(links) = Links::of(leg) else { return [anything; 2] };
         let angle = |cos, sin| Interval::angle(cos, sin).unwrap_or(Interval::ENTIRE);

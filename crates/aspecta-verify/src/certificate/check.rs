@@ -3,7 +3,9 @@
 use super::{Certificate, TreeError};
 use aspecta_robot::AXES;
 use aspecta_robot::chart::{Chain, Chart, Fold};
-use aspecta_robot::{Platform, Robot, Unsound as Part, Window, holds, sane, takes, usable, wanted};
+use aspecta_robot::{
+    Leg, LegIndex, Platform, Robot, Unsound as Part, Window, holds, sane, takes, usable, wanted,
+};
 
 /// Parts that do not fit together.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -151,11 +153,13 @@ impl Certificate {
     }
 }
 
+/// The leg in whose own coordinates a sheet is.
+fn leg_of<'a>(robot: &'a Robot, leg: LegIndex, what: &'static str) -> Result<&'a Leg, Part> {
+    robot.legs.get(leg.index()).ok_or(Part::Index { what, index: leg.index() })
+}
+
 fn check_fold(robot: &Robot, fold: &Fold) -> Result<(), Part> {
-    let leg = robot
-        .legs
-        .get(fold.leg.index())
-        .ok_or(Part::Index { what: "leg of a fold", index: fold.leg.index() })?;
+    let leg = leg_of(robot, fold.leg, "leg of a fold")?;
     holds(takes(&leg.actuator).elbow, "the leg of a fold has no crank")?;
     holds(
         matches!(robot.platform, Platform::PlanePoint | Platform::PlaneBody | Platform::TranslatingBody),
@@ -174,10 +178,7 @@ fn check_fold(robot: &Robot, fold: &Fold) -> Result<(), Part> {
 }
 
 fn check_chain(robot: &Robot, window: &Window, chain: &Chain, sheet: usize) -> Result<(), Part> {
-    let leg = robot
-        .legs
-        .get(chain.leg.index())
-        .ok_or(Part::Index { what: "leg of a chain", index: chain.leg.index() })?;
+    let leg = leg_of(robot, chain.leg, "leg of a chain")?;
     holds(
         robot.platform == Platform::TurningBody && takes(&leg.actuator).on_sphere,
         "a chain is that of a platform that does not turn about a point, or of a leg that is not spherical",

@@ -79,7 +79,7 @@ impl<const D: usize, const N: usize> Field<'_, D, N> {
         let mut folded = false;
         self.visit::<f64>(x, 0, |face, value| {
             if let Face::Of(Constraint::Reach(j)) = face
-                && let Some(greatest) = self.robot.legs[j.index()].actuator.greatest_reach()
+                && let Some(greatest) = self.robot.leg(j).actuator.greatest_reach()
             {
                 folded |= value <= SINGULAR * SINGULAR * greatest.mid();
             }

@@ -113,11 +113,11 @@ fn regions(out: &mut dyn Write, found: &Domains, advice: &DomainsAdvice) -> fmt:
     for region in found.regions.iter().take(LISTED) {
         let first = [region.number.to_string(), brief(region.measure), region.solutions.to_string()];
         let meets = found.coincidences.iter().filter_map(|c| match c.regions {
-            (a, b) if a == region.number => Some(b.to_string()),
-            (a, b) if b == region.number => Some(a.to_string()),
+            (a, b) if a == region.number => Some(b),
+            (a, b) if b == region.number => Some(a),
             _ => None,
         });
-        let meets = meets.take(8).collect::<Vec<_>>().join(" ");
+        let meets = first_of(meets, 8);
         table.row(first.into_iter().chain(axes.iter().map(|&k| brief(region.pose[k]))).chain([meets]));
     }
     write!(out, "{table}")?;
@@ -146,7 +146,7 @@ fn uniqueness(out: &mut dyn Write, found: &Domains, advice: &DomainsAdvice) -> f
     let mut table = Table::new(names);
     for domain in found.uniqueness.iter().take(LISTED) {
         let of_workspace = domain.of_workspace.map_or(String::new(), percent);
-        let listed = domain.regions.iter().take(12).map(RegionId::to_string).collect::<Vec<_>>().join(" ");
+        let listed = first_of(domain.regions.iter(), 12);
         let dots = if domain.regions.len() > 12 { " …" } else { "" };
         table.row([
             brief(domain.measure),
@@ -192,7 +192,7 @@ fn images(out: &mut dyn Write, found: &Domains, advice: &DomainsAdvice) -> fmt::
     )?;
     let (unmatched, is_slice) = (unmatched(found), found.window.held().next().is_some());
     if !is_slice && !unmatched.is_empty() {
-        let listed = unmatched.iter().take(LISTED).map(RegionId::to_string).collect::<Vec<_>>().join(" ");
+        let listed = first_of(unmatched.iter(), LISTED);
         writeln!(
             out,
             "not as many coincident images as solutions, so the uniqueness domains are not sure (more {cells}): regions {listed}"
@@ -234,7 +234,7 @@ fn pairs(out: &mut dyn Write, what: &str, pairs: &[(RegionId, RegionId)]) -> fmt
     if pairs.is_empty() {
         return Ok(());
     }
-    let listed = pairs.iter().take(LISTED).map(|(a, b)| format!("{a}-{b}")).collect::<Vec<_>>().join(" ");
+    let listed = first_of(pairs.iter().map(|(a, b)| format!("{a}-{b}")), LISTED);
     let dots = if pairs.len() > LISTED { " …" } else { "" };
     writeln!(out, "regions that {what}: {listed}{dots}")
 }
@@ -246,6 +246,11 @@ fn unmatched(found: &Domains) -> Vec<RegionId> {
     let partners = |number: RegionId| found.coincidences.iter().filter(|c| holds(c, number)).count();
     let regions = found.regions.iter().filter(|r| partners(r.number) + 1 != usize::from(r.solutions));
     regions.map(|region| region.number).collect()
+}
+
+/// The first so many, side by side.
+fn first_of(items: impl Iterator<Item = impl ToString>, most: usize) -> String {
+    items.take(most).map(|item| item.to_string()).collect::<Vec<_>>().join(" ")
 }
 
 fn more(out: &mut dyn Write, rows: usize, advice: &DomainsAdvice) -> fmt::Result {
