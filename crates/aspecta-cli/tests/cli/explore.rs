@@ -15,7 +15,7 @@ fn no_pose_found_is_no_bound() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("apart.toml");
     fs::write(&path, format!("{first}{}", legs.collect::<String>())).unwrap();
-    let explored = aspecta("explore --samples 4").arg(&path).output().unwrap();
+    let explored = aspecta("explore --samples 4 --budget 2s").arg(&path).output().unwrap();
     let text = String::from_utf8(explored.stdout).unwrap();
     assert_eq!(explored.status.code(), Some(0), "{text}");
     assert!(text.contains("gough-stewart: no pose was found in 2 classes, which does not prove"), "{text}");

@@ -29,6 +29,13 @@ pub fn analysis(robot: &Robot, depth: u32) -> Analysis {
     slice(robot, depth, &[])
 }
 
+/// The analysis of one working mode.
+pub fn analysis_in(robot: &Robot, mode: &str, depth: u32) -> Analysis {
+    let budget = Budget { depth: Some(depth), ..Budget::default() };
+    let options = Options { budget, modes: vec![mode.parse().unwrap()], ..Options::default() };
+    analyze(robot, &options, &Control::unwatched()).unwrap()
+}
+
 /// The analysis of a slice.
 pub fn slice(robot: &Robot, depth: u32, fix: &[(usize, f64)]) -> Analysis {
     let budget = Budget { depth: Some(depth), ..Budget::default() };

@@ -2,7 +2,7 @@
 //!
 //! With `ASPECTA_FIGURES=DIR` the pages stay in DIR to look at.
 
-use crate::common::{analysis, five_bar, three_rrr};
+use crate::common::{analysis, analysis_in, five_bar, three_rrr};
 use aspecta::aspect::{Analysis, AspectId, ClassId};
 use aspecta::kinematics::WorkingMode;
 use aspecta::motion::{PathCheck, ProfilePoint, check_path};
@@ -231,7 +231,7 @@ fn the_aspect_of_a_five_bar() {
 /// With three coordinates the section changes with the third one: it is at most half a step from it.
 #[test]
 fn sections_of_the_three_rrr() {
-    let (robot, analysis) = (three_rrr(), analysis(&three_rrr(), 6));
+    let (robot, analysis) = (three_rrr(), analysis_in(&three_rrr(), "+++", 6));
     let check = check(&robot, &TABLE_4, "+++");
     let page =
         Page::new("3-rrr-aspect", Motion::new(&robot).then(check.mode, &check.profile).within(&analysis));

@@ -116,6 +116,7 @@ fn the_certificate_of_a_slice_is_verified() {
 }
 
 #[test]
+#[ignore = "a quarter of a minute; the checker's tests look at a Delta in coarser boxes"]
 fn the_certificate_of_a_delta_is_verified() {
     assert_verified(2, "irb-360", Options::default());
 }
@@ -168,8 +169,13 @@ fn a_spherical_robot_in_the_joint_angles_of_each_leg() {
 /// A fold is opened up by the leg's own joint angles: by those of all configurations, if it is the first leg, or by a chart of its own.
 #[test]
 fn a_spherical_robot_whose_leg_folds() {
-    assert_eq!(in_modes(&folding_sphere(0), &["-++"]), [1, 1]);
     assert_eq!(in_modes(&folding_sphere(2), &["+-+"]), [1, 1]);
+}
+
+#[test]
+#[ignore = "a few seconds: its joint angles chart all configurations, as those of any first leg do"]
+fn a_spherical_robot_whose_first_leg_folds() {
+    assert_eq!(in_modes(&folding_sphere(0), &["-++"]), [1, 1]);
 }
 
 #[test]

@@ -1,5 +1,5 @@
 //! What a paving claims, held against configurations recomputed from scratch on random robots of every platform that
-//! can be paved.
+//! can be paved. `ASPECTA_CASES` sets the number of robots tried of each kind (20 by default).
 
 use aspecta::Kinematics;
 use aspecta::aspect::{Analysis, AspectId, ClassId, DetSign, Options, Place, analyze};
@@ -144,8 +144,9 @@ fn samples<S: Strategy>(strategy: S, count: usize) -> impl Iterator<Item = S::Va
     (0..count).map(move |_| strategy.new_tree(&mut runner).unwrap().current())
 }
 
-/// `each` tries in each family: its number, the robot and 600 numbers to go with it.
-fn robots(each: usize) -> impl Iterator<Item = (usize, Robot, Vec<f64>)> {
+/// Tries in each family: its number, the robot and 600 numbers to go with it.
+fn robots() -> impl Iterator<Item = (usize, Robot, Vec<f64>)> {
+    let each: usize = std::env::var("ASPECTA_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(20);
     let dice = prop::collection::vec(0.0..1.0f64, 100);
     samples((dice, prop::collection::vec(0.0..1.0f64, 600)), each * FAMILIES)
         .enumerate()
@@ -280,7 +281,7 @@ fn pose_in(paving: &Paving, node: u32, dice: &mut Dice) -> Vec<f64> {
 /// Robots of each family, analysed, with further numbers drawn for each.
 static ANALYSED: LazyLock<Vec<(usize, Analysis, Vec<f64>)>> = LazyLock::new(|| {
     let analysed = |(family, robot, rest)| Some((family, analyzed_slice(&robot, Vec::new())?, rest));
-    robots(40).filter_map(analysed).collect()
+    robots().filter_map(analysed).collect()
 });
 
 fn analyzed_slice(robot: &Robot, fix: Vec<(usize, f64)>) -> Option<Analysis> {
@@ -320,7 +321,7 @@ fn certificates_hold() {
 #[test]
 fn certificates_hold_in_slices() {
     let mut seen = [[0usize; 4]; FAMILIES];
-    for (family, robot, rest) in robots(60) {
+    for (family, robot, rest) in robots() {
         let mut dice = Dice(rest.iter());
         let Ok(window) = robot.workspace_window() else { continue };
         let first = dice.between(0.0, robot.dof() as f64) as usize;
@@ -429,7 +430,7 @@ fn check_bounds(analysis: &Analysis, class: usize, id: AspectId, x: &[f64]) {
 #[test]
 fn segments_are_what_is_claimed() {
     let mut seen = [0usize; 3];
-    for (_, mut robot, rest) in robots(40) {
+    for (_, mut robot, rest) in robots() {
         robot.window.fill(None);
         let mut dice = Dice(rest.iter());
         for _ in 0..4 {

@@ -1,7 +1,7 @@
 //! Maps of the workspace.
 
 use super::Case;
-use crate::common::{analysis, five_bar, three_rrr};
+use crate::common::{analysis, analysis_in, five_bar, three_rrr};
 use aspecta::aspect::AspectId;
 use aspecta::domain;
 use aspecta::domain::boundary::Boundary;
@@ -86,7 +86,7 @@ fn hue(colour: &str) -> f64 {
 /// Where a plane meets the serial part of the boundary, a leg of the 3-RRR is stretched: |AᵢCᵢ| = 20.
 #[test]
 fn sections_lie_on_the_boundary() {
-    let analysis = analysis(&three_rrr(), 7);
+    let analysis = analysis_in(&three_rrr(), "+++", 7);
     let boundary = domain::Mesh::from(&Boundary::new(&analysis, AspectId::new(1), 48).unwrap());
     let anchors = [[-10.0, -10.0], [10.0, -10.0], [0.0, 10.0_f64]];
     let attachments = [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0_f64]];

@@ -287,7 +287,7 @@ fn modes_that_limits_leave_little_of_are_found() {
         false => format!("{line}\n"),
     };
     let robot = Robot::from_toml(&entry.text.lines().map(limited).collect::<String>(), "hexa.toml").unwrap();
-    let found = explore(&robot, &[], &effort(32), &Control::unwatched()).unwrap();
+    let found = explore(&robot, &[], &effort(8), &Control::unwatched()).unwrap();
     assert_eq!(found.classes.len(), 128);
     assert!(found.at_least > 100, "{}", found.at_least);
     for class in &found.classes {
