@@ -12,18 +12,48 @@ const SEEN: usize = 64;
 /// The greatest [`State::parallel_measure`](super::singularity::State::parallel_measure) that is taken for
 /// zero: some thousand roundings.
 const ZERO: f64 = 1e-12;
+/// The greatest one of robots that are singular but for the decimals of their file, of which they have three at least.
+const ROUNDED: f64 = 1e-3;
 
-/// Whether det A vanishes at every configuration drawn at random, 64 or more of them, in every working mode
-/// there: two legs may be one and the same, or all joints of a platform in one line. *Numerical*, to 10⁻¹² of
-/// the homogeneous A. Such a robot moves with all actuators locked, and has no aspects.
+/// What a robot is wherever it goes, as far as random configurations tell ([`architecture`]). *Numerical*.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Architecture {
+    /// Some configuration is far from singular, or too few were found.
+    Regular,
+    /// det A vanishes at all of them, to 10⁻¹² of the homogeneous A: two legs may be one and the same, or all joints of a platform in
+    /// one line. Such a robot moves with all actuators locked, and has no aspects.
+    Singular,
+    /// At none of them is the homogeneous A further than this, below 10⁻³, from a singular matrix: that it is not one may be due to the
+    /// decimals in which lengths were written down, and the robot as built hardly keeps its platform.
+    NearlySingular {
+        /// The greatest [`State::parallel_measure`](super::singularity::State::parallel_measure) seen.
+        measure: f64,
+    },
+}
+
+/// Returns whether a robot is singular at every configuration drawn at random, 64 or more of them, in every working mode
+/// there. *Numerical*.
 ///
 /// Poses are drawn in the robot's window, or, if it has none, within three characteristic lengths of the
 /// origin.
-pub fn seems_architecturally_singular(robot: &Robot) -> bool {
+///
+/// # Examples
+/// ```
+/// use aspecta_kinematics::{Architecture, architecture};
+/// use aspecta_robot::Robot;
+///
+/// let mut robot = Robot::resolve("gough-stewart")?;
+/// assert_eq!(architecture(&robot), Architecture::Regular);
+///
+/// robot.legs[1] = robot.legs[0].clone();
+/// assert_eq!(architecture(&robot), Architecture::Singular);
+/// # Ok::<(), aspecta_robot::FileError>(())
+/// ```
+pub fn architecture(robot: &Robot) -> Architecture {
     let window = robot.slice(&[]).ok();
     let mut random = Random::new(1);
     let reach = 3.0 * robot.characteristic_length();
-    let mut seen = 0;
+    let (mut seen, mut measure) = (0, 0.0_f64);
     for _ in 0..DRAWN {
         let coordinates = robot.platform.coordinates().iter().enumerate();
         let range = |(k, c): (usize, &Coordinate)| match &window {
@@ -34,16 +64,21 @@ pub fn seems_architecturally_singular(robot: &Robot) -> bool {
         let pose: Vec<f64> = coordinates.map(range).map(|range| random.within(range)).collect();
         for found in robot.inverse(&pose).unwrap_or_default() {
             let Ok(state) = robot.state(&found.pose, &found.q) else { continue };
-            if state.parallel_measure > ZERO {
-                return false;
+            measure = measure.max(state.parallel_measure);
+            if measure > ROUNDED {
+                return Architecture::Regular;
             }
             seen += 1;
         }
         if seen >= SEEN {
-            return true;
+            return if measure > ZERO {
+                Architecture::NearlySingular { measure }
+            } else {
+                Architecture::Singular
+            };
         }
     }
-    false
+    Architecture::Regular
 }
 
 #[cfg(test)]
@@ -58,7 +93,7 @@ mod tests {
     #[test]
     fn no_robot_of_the_catalogue_is() {
         for robot in all() {
-            assert!(!seems_architecturally_singular(&robot), "{}", robot.name);
+            assert_eq!(architecture(&robot), Architecture::Regular, "{}", robot.name);
         }
     }
 
@@ -72,7 +107,8 @@ mod tests {
             for leg in 1..robot.dof() {
                 let mut twin = robot.clone();
                 twin.legs[leg] = twin.legs[leg - 1].clone();
-                assert_eq!(seems_architecturally_singular(&twin), alike, "{}, leg {leg}", robot.name);
+                let is_singular = architecture(&twin) == Architecture::Singular;
+                assert_eq!(is_singular, alike, "{}, leg {leg}", robot.name);
             }
         }
     }

@@ -20,14 +20,16 @@ pub mod parallel_rods;
 pub mod path;
 pub mod placement;
 mod singularity;
+mod velocities;
 
-pub use architecture::seems_architecturally_singular;
+pub use architecture::{Architecture, architecture};
 pub use direct::{DirectSolutions, Poses};
 pub use inverse::{LegSolutions, check_joints, check_pose};
 pub use jacobian::Jacobians;
 pub use model::Kinematics;
 pub use out_of_reach::OutOfReach;
 pub use singularity::{SINGULAR, Singularity, State, make_homogeneous};
+pub use velocities::{Lost, SerialPosture, Velocities};
 
 #[doc(hidden)]
 pub use aspecta_robot::Platform;

@@ -112,7 +112,7 @@ impl<'a> Track<'a> {
             Elbow::Line => d.dot(&u),
         };
         let allowed = |limit: &Limit| match limit {
-            Limit::ActuatorAngle { middle: (cos, sin), half_cos } => {
+            Limit::ActuatorAngle { middle: (cos, sin), half_cos, .. } => {
                 without_turns(q - sin.mid().atan2(cos.mid())).cos() > half_cos.mid()
             }
             Limit::ActuatorLength { min, max } => min.mid() < q && q < max.mid(),

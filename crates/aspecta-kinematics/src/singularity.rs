@@ -1,6 +1,6 @@
 //! Singularities (Definitions 3 and 4): of which kind a configuration is, and how near it is to one.
 
-use super::{KinematicsError, LegIndex, WorkingMode};
+use super::{KinematicsError, LegIndex, Velocities, WorkingMode};
 use crate::Kinematics;
 use aspecta_robot::{Actuator, Robot};
 use nalgebra::DMatrix;
@@ -60,7 +60,7 @@ impl Singularity {
 pub struct State {
     /// X; angles in rad.
     pub pose: Vec<f64>,
-    /// q; angles in rad.
+    /// q; angles in rad, turned by full turns into the ranges of their joints.
     pub q: Vec<f64>,
     /// The working mode (Definition 7); `None` at a serial singularity, which belongs to none.
     pub mode: Option<WorkingMode>,
@@ -93,6 +93,8 @@ pub struct State {
     pub serial_measures: Vec<f64>,
     /// The legs in serial singularity.
     pub serial_legs: Vec<LegIndex>,
+    /// What moves and what does not.
+    pub velocities: Velocities,
     /// The measure at or below which a configuration is called singular: [`SINGULAR`].
     pub tolerance: f64,
 }
@@ -106,7 +108,7 @@ pub(crate) fn state(robot: &Robot, pose: &[f64], q: &[f64]) -> Result<State, Kin
     let parallel_measure = values.smallest;
     Ok(State {
         pose: pose.to_vec(),
-        q: q.to_vec(),
+        q: robot.legs.iter().zip(q).map(|(leg, q)| leg.in_range(*q)).collect(),
         mode: serial_legs.is_empty().then(|| jacobians.mode()),
         residual: jacobians.residual,
         det_a: jacobians.det_a(),
@@ -116,6 +118,7 @@ pub(crate) fn state(robot: &Robot, pose: &[f64], q: &[f64]) -> Result<State, Kin
         singularity: Singularity::of(parallel_measure <= SINGULAR, !serial_legs.is_empty()),
         parallel_measure,
         serial_measures,
+        velocities: Velocities::new(robot, pose, (&jacobians.a, &jacobians.b), &serial_legs),
         serial_legs,
         tolerance: SINGULAR,
         a: jacobians.a,

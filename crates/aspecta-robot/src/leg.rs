@@ -1,8 +1,9 @@
 //! Legs, their actuators and their joint limits.
 
-use crate::legs::Actuator;
-use crate::num::{Interval, Scalar, dot_constant, each};
+use crate::legs::{Actuator, Drive};
+use crate::num::{Interval, Scalar, dot_constant, each, turned_to};
 use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
 
 /// An orthonormal frame at the anchor of a leg: its rows are the unit vectors u, v, w in base
 /// coordinates. Enclosures hold the exact frame. In the plane only the upper left 2 × 2 block counts.
@@ -51,6 +52,10 @@ pub enum Limit {
         middle: (Interval, Interval),
         /// cos of its half-width.
         half_cos: Interval,
+        /// Full turns from the angle of `middle` in (−π, π] to the middle that the robot file means: 1 for the range 200° to
+        /// 400°. No configuration depends on it, but the value by which a joint angle is called does.
+        #[serde(default, skip_serializing_if = "is_zero")]
+        turns: i32,
     },
     /// A driven length (prismatic legs and struts), min < q < max.
     ActuatorLength {
@@ -115,6 +120,11 @@ pub fn point(p: [f64; 3]) -> [Interval; 3] {
     p.map(Interval::decimal)
 }
 
+/// Whether a number can be left out of a file.
+fn is_zero(turns: &i32) -> bool {
+    *turns == 0
+}
+
 impl Limit {
     /// The joint it limits, as robot files call it.
     pub fn joint(&self) -> &'static str {
@@ -139,11 +149,12 @@ impl Leg {
         }
     }
 
-    /// The range of the driven joint, if it has one: rad (about the middle, which is in (−π, π]) or length units.
+    /// The range of the driven joint, if it has one, as the robot file gives it: rad or length units.
     pub fn drive_range(&self) -> Option<(f64, f64)> {
         self.limits.iter().find_map(|limit| match limit {
-            Limit::ActuatorAngle { middle: (cos, sin), half_cos } => {
-                let (middle, half) = (sin.mid().atan2(cos.mid()), half_cos.mid().acos());
+            Limit::ActuatorAngle { middle: (cos, sin), half_cos, turns } => {
+                let middle = sin.mid().atan2(cos.mid()) + TAU * f64::from(*turns);
+                let half = half_cos.mid().acos();
                 Some((middle - half, middle + half))
             }
             Limit::ActuatorLength { min, max } => Some((min.mid(), max.mid())),
@@ -157,9 +168,10 @@ impl Leg {
     /// [`Leg::drive_range`], certainly held: half-width and middle are those of the limit, not of rounded angles.
     pub fn drive_enclosure(&self) -> Option<Interval> {
         self.limits.iter().find_map(|limit| match limit {
-            Limit::ActuatorAngle { middle, half_cos } => {
+            Limit::ActuatorAngle { middle, half_cos, turns } => {
                 let half = Interval::angle(*half_cos, (Interval::point(1.0) - half_cos.square()).sqrt())?;
-                let middle = Interval::angle(middle.0, middle.1)?;
+                let turned = Interval::PI * Interval::point(2.0 * f64::from(*turns));
+                let middle = Interval::angle(middle.0, middle.1)? + turned;
                 Some((middle - half).hull(middle + half))
             }
             Limit::ActuatorLength { min, max } => Some(min.hull(*max)),
@@ -168,6 +180,21 @@ impl Leg {
             | Limit::BaseCone { .. }
             | Limit::PlatformCone { .. } => None,
         })
+    }
+
+    /// The value of the driven joint, as people and controllers call it: a length, or the angle (rad) that lies within the
+    /// joint's own range, or next to it if none does; in (−π, π] if the joint has no limits.
+    pub fn joint_value(&self, drive: Drive<f64>) -> f64 {
+        self.in_range(drive.value())
+    }
+
+    /// Turns a value of the driven joint by full turns into the joint's range, or as near to its middle as may be; lengths, and angles
+    /// of joints without limits, are left as they are.
+    pub fn in_range(&self, q: f64) -> f64 {
+        match self.drive_range() {
+            Some((low, high)) if self.actuator.is_angle() => turned_to(q, 0.5 * (low + high)),
+            _ => q,
+        }
     }
 
     /// The limits of a driven length, if it has any: (min, max).

@@ -76,7 +76,7 @@ impl Robot {
             [&self.name, &self.title, &self.source, &self.length_unit]
                 .into_iter()
                 .all(|words| is_line(words)),
-            "the name, title, source or unit of the robot has a line break, tab or other control character",
+            "the name, title, source or unit of the robot has a line break, tab or other character that cannot be seen",
         )?;
         let n = self.dof();
         wanted("robot.window", self.window.len(), n)?;
@@ -185,7 +185,9 @@ pub fn takes(actuator: &Actuator) -> Takes {
 fn is_limit(limit: &Limit, actuator: &Actuator, space: usize) -> bool {
     let takes = takes(actuator);
     match limit {
-        Limit::ActuatorAngle { middle, half_cos } => takes.angle && is_circular(middle) && sane(half_cos),
+        Limit::ActuatorAngle { middle, half_cos, turns } => {
+            takes.angle && is_circular(middle) && sane(half_cos) && turns.abs() <= 2
+        }
         Limit::ActuatorLength { min, max } => {
             let least = if takes.positive { 0.0 } else { f64::NEG_INFINITY };
             !takes.angle && sane(min) && sane(max) && min.hi <= max.hi && min.lo >= least
@@ -224,7 +226,7 @@ mod tests {
             |robot| robot.length_unit.push('\t'),
         ];
         for change in changes {
-            assert!(refusal(change).contains("control character"));
+            assert!(refusal(change).contains("cannot be seen"));
         }
     }
 

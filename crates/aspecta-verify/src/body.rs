@@ -213,7 +213,7 @@ impl<'a, T: Scalar, const D: usize> Body<'a, T, D> {
         let leg = &self.robot.legs[j];
         let constant = |c: Interval| T::constant(c);
         match limit {
-            Limit::ActuatorAngle { middle, half_cos } => {
+            Limit::ActuatorAngle { middle, half_cos, .. } => {
                 let (sin, cos) = self.crank(j, q);
                 cos.scale(middle.0) + sin.scale(middle.1) - constant(*half_cos)
             }

@@ -331,7 +331,7 @@ fn limits_of_all_kinds_in_the_plane() {
     let axis = [x, y, Interval::point(0.0)];
     let wide = direction(2.0).0;
     for (leg, limits) in robot.legs.iter_mut().zip([
-        vec![Limit::ActuatorAngle { middle, half_cos }, Limit::BaseCone { axis, half_cos: wide }],
+        vec![Limit::ActuatorAngle { middle, half_cos, turns: 0 }, Limit::BaseCone { axis, half_cos: wide }],
         vec![Limit::Elbow { middle, half_cos: wide }, Limit::PlatformCone { axis, half_cos: wide }],
     ]) {
         leg.limits = limits;
@@ -339,7 +339,7 @@ fn limits_of_all_kinds_in_the_plane() {
     let certificate = certify(&robot, &[], Some(6));
     assert!(checked(&certificate).claims.inside > 20);
     refuted(&certificate, "claimed", |c| {
-        c.robot.legs[0].limits[0] = Limit::ActuatorAngle { middle: direction(1.6), half_cos };
+        c.robot.legs[0].limits[0] = Limit::ActuatorAngle { middle: direction(1.6), half_cos, turns: 0 };
     });
 }
 

@@ -1,7 +1,7 @@
 //! `--fix`: coordinates or joints held at a value.
 
 use crate::failure::Failure;
-use crate::input::Columns;
+use crate::input::{Columns, warn_of_degrees};
 use aspecta::robot::{LegIndex, Robot};
 use clap::Args;
 
@@ -64,7 +64,13 @@ fn quantity(text: &str, name: &str, angle: bool) -> Result<f64, String> {
     };
     let form = if angle { "radians, or 30deg" } else { "a plain number" };
     match number.trim().parse::<f64>() {
-        Ok(x) => Ok(if degrees { x.to_radians() } else { x }),
+        Ok(x) if degrees => Ok(x.to_radians()),
+        Ok(x) => {
+            if angle && number == text {
+                warn_of_degrees(name, x, &format!("{name}={text}deg"));
+            }
+            Ok(x)
+        }
         Err(_) => Err(format!("`{text}` is not a value of `{name}`: give {form}")),
     }
 }

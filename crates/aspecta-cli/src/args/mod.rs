@@ -4,6 +4,7 @@
 
 pub mod away;
 pub mod budget;
+pub mod det;
 pub mod drawing;
 pub mod fix;
 pub mod format;

@@ -1,6 +1,7 @@
 //! `aspecta check`: whether a robot file is right.
 
 use crate::failure::{Answer, Failure};
+use crate::input::warn_of_mixed_units;
 use crate::show::doubts::warn_of_architecture;
 use aspecta::robot::{FileError, Robot};
 use aspecta_view::words::count;
@@ -25,6 +26,7 @@ impl Check {
         let modes = count(robot.working_modes().len(), "working mode", "working modes");
         let (name, platform, legs) = (&robot.name, robot.platform, robot.dof());
         writeln!(out, "{file}: `{name}` is a {platform} with {legs} legs and {modes}")?;
+        warn_of_mixed_units(&robot);
         warn_of_architecture(&robot);
         Ok(Answer::Yes)
     }

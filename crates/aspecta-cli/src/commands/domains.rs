@@ -1,5 +1,6 @@
 //! `aspecta domains`: basic regions and uniqueness domains.
 
+use crate::args::det::DetArg;
 use crate::args::drawing::Drawing;
 use crate::args::fix::FixArg;
 use crate::args::format::JsonArg;
@@ -13,7 +14,7 @@ use crate::input;
 use crate::output::{self, FORMAT_VERSION, Target, note};
 use crate::work::mapping::{Part, Source, Wanted};
 use crate::work::watch::watched;
-use aspecta::aspect::{Analysis, AspectId, Count, DetSign};
+use aspecta::aspect::{Analysis, AspectId, Count};
 use aspecta::domain::characteristic::GivenUp;
 use aspecta::domain::{DomainError, Domains as Found, Map, MappedAspect, Surfaces};
 use aspecta::paving::Stop;
@@ -21,7 +22,7 @@ use aspecta::robot::Robot;
 use aspecta::text::{DomainsAdvice, DomainsSummary};
 use aspecta_view::words::count;
 use aspecta_view::{Cut, write_domains};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use serde::Serialize;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -36,6 +37,7 @@ use std::path::{Path, PathBuf};
 )))]
 #[command(mut_args(help("mode", "Only aspects of this working mode, such as `+-+`")))]
 #[command(mut_args(value_name("mode", "SIGNS")))]
+#[command(mut_args(help("det", "Only aspects with this sign of det A")))]
 #[command(mut_args(help("threads", threads::OF_NO_WEIGHT)))]
 pub struct Domains {
     /// Name from `aspecta robots`, path of a robot file, or a file written by --save: then nothing is
@@ -43,9 +45,8 @@ pub struct Domains {
     robot: String,
     #[command(flatten)]
     mode: ModeArg,
-    /// Only aspects with this sign of det A
-    #[arg(long, value_name = "SIGN", allow_hyphen_values = true)]
-    det: Option<Sign>,
+    #[command(flatten)]
+    det: DetArg,
     /// Only the aspect with this number, as `aspecta analyze` with the same budget (and --fix, and with that
     /// --mode) numbers them
     #[arg(long, value_name = "ID")]
@@ -65,15 +66,6 @@ pub struct Domains {
     drawing: Drawing,
     #[command(flatten)]
     threads: Threads,
-}
-
-/// A sign of det A.
-#[derive(Clone, Copy, ValueEnum)]
-enum Sign {
-    #[value(name = "+")]
-    Plus,
-    #[value(name = "-")]
-    Minus,
 }
 
 /// The output of `--json`.
@@ -140,10 +132,7 @@ impl Domains {
 
     fn wanted(&self, robot: &Robot) -> Result<Wanted, Failure> {
         let mode = self.mode.of(robot)?;
-        let det_a = self.det.map(|sign| match sign {
-            Sign::Plus => DetSign::Positive,
-            Sign::Minus => DetSign::Negative,
-        });
+        let det_a = self.det.sign();
         Ok(Wanted { mode, det_a, aspect: self.aspect.map(AspectId::new) })
     }
 

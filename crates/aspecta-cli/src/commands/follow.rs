@@ -102,7 +102,7 @@ impl Follow {
             .transpose()?;
         let mode = self.start.mode.as_deref().map(|m| input::mode(&robot, m)).transpose()?;
         let layouts = [if self.inverse { pose } else { joints }];
-        let mut rows = Rows::open(&self.file, &layouts, self.shown.deg)?;
+        let mut rows = Rows::open(&self.file, &layouts, self.shown.deg)?.unbounded();
         let mut printer = Printer::new(&robot, self.inverse, self.shown.format(), self.shown.deg);
         let mut follower: Option<Any> = None;
         let (mut steps, mut refused) = (0, 0);
@@ -118,7 +118,6 @@ impl Follow {
                 }
             };
             let (found, outcome) = match follower.step(&row) {
-                Err(Refusal::Input(e)) => return Err(rows.at(row.line, e)),
                 Err(e) => (None, Outcome::Refused { refused: e, message: e.to_string() }),
                 Ok((found, outcome)) => (Some(found), outcome),
             };

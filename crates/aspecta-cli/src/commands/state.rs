@@ -203,11 +203,64 @@ fn print_one(
         s.tolerance
     )?;
     writeln!(out, "residual      {:.1e}", s.residual)?;
+    print_velocities(out, robot, &s.velocities)?;
     if matrices {
         for (j, (row, b)) in s.a.iter().zip(&s.b).enumerate() {
             let row: Vec<_> = row.iter().map(|x| number(*x)).collect();
             writeln!(out, "leg {:<2}        A: {}    B: {}", j + 1, row.join("  "), number(*b))?;
         }
+        for (k, row) in s.velocities.twist_of_joints.iter().flatten().enumerate() {
+            let row: Vec<_> = row.iter().map(|x| number(*x)).collect();
+            let name = if k == 0 { "−A⁻¹B" } else { "" };
+            writeln!(out, "{name:<13} {}    of {}", row.join("  "), speed(robot, k))?;
+        }
+    }
+    Ok(())
+}
+
+/// The name of a component of a twist.
+fn speed(robot: &Robot, k: usize) -> String {
+    let coordinates = robot.platform.coordinates();
+    let turns = coordinates.iter().filter(|c| c.angle).count();
+    let translations = coordinates.len() - turns;
+    match k.checked_sub(translations) {
+        None => format!("v_{}", coordinates[k].name),
+        Some(_) if turns == 1 => "ω".into(),
+        Some(k) => format!("ω_{}", ["x", "y", "z"][k]),
+    }
+}
+
+/// Prints what the platform gains and loses (Definitions 3 and 4).
+fn print_velocities(out: &mut dyn Write, robot: &Robot, v: &kinematics::Velocities) -> Result<(), Failure> {
+    let values: Vec<_> = v.singular_values.iter().map(|x| number(*x)).collect();
+    let length = v.length.map_or(String::new(), |length| {
+        format!(" (turns count by {} {})", number(length), robot.length_unit)
+    });
+    writeln!(out, "ranks         A {}, B {}", v.rank_a, v.rank_b)?;
+    writeln!(out, "sing. values  {}{length}", values.join(", "))?;
+    let twist = |twist: &[f64]| {
+        let parts = twist.iter().enumerate().map(|(k, x)| format!("{} = {}", speed(robot, k), number(*x)));
+        parts.collect::<Vec<_>>().join(", ")
+    };
+    for gained in &v.gained {
+        writeln!(
+            out,
+            "gained        {}: a twist that locked actuators do not hinder (Def. 3)",
+            twist(gained)
+        )?;
+    }
+    for lost in &v.lost {
+        let posture = match lost.posture {
+            kinematics::SerialPosture::Stretched => "stretched",
+            kinematics::SerialPosture::Folded => "folded",
+            _ => "square to what its motor moves",
+        };
+        writeln!(
+            out,
+            "lost          {}: leg {}, {posture}, lets no twist have a part along this (Def. 4)",
+            twist(&lost.twist),
+            lost.leg
+        )?;
     }
     Ok(())
 }

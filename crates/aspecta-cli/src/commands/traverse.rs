@@ -1,7 +1,9 @@
 //! `aspecta traverse`: which aspects hold a whole set of poses.
 
+use crate::args::det::DetArg;
 use crate::args::format::TableArgs;
 use crate::args::help::help;
+use crate::args::mode::ModeArg;
 use crate::args::planning::Analysing;
 use crate::args::robot::RobotArg;
 use crate::failure::{Answer, Failure};
@@ -22,15 +24,21 @@ use std::io::Write;
 /// Arguments of `traverse`.
 #[derive(Args)]
 #[command(mut_args(help("deg", "Angles of the input and of the tables are in degrees")))]
+#[command(mut_args(help("mode", "Only aspects of this working mode, such as `+-`")))]
+#[command(mut_args(help("det", "Only aspects with this sign of det A")))]
 #[command(after_help = EXAMPLES)]
 pub struct Traverse {
     #[command(flatten)]
     robot: RobotArg,
     #[command(flatten)]
     set: Set,
+    #[command(flatten)]
+    mode: ModeArg,
+    #[command(flatten)]
+    det: DetArg,
     /// With --poses: also say through which groups of aspects every pose can be reached if legs change their
     /// postures
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["mode", "det"])]
     through_modes: bool,
     /// A file written by `aspecta domains --save`: also say which uniqueness domains hold the set (numerical)
     #[arg(long, value_name = "FILE")]
@@ -58,6 +66,7 @@ struct Set {
 const EXAMPLES: &str = "\
 Examples:
   aspecta traverse five-bar --box 2:6,8:10
+  aspecta traverse five-bar --box 2:6,8:10 --mode +- --det +
   aspecta traverse five-bar --poses points.csv --through-modes
 A connected set (a box, a path) that one aspect holds can be traversed on any continuous path in it; separate poses that one aspect
 holds can be visited in any order. Answers are certified unless they say otherwise.
@@ -91,10 +100,16 @@ impl Traverse {
         let set = self.set.read(&robot, self.shown.deg)?;
         set.check(&robot)?;
         let map = self.map.as_deref().map(|path| read_map(path, &robot)).transpose()?;
-        let found = self.analysing.with(&robot, &[], |analysis, _| {
+        let (mode, det_a) = (self.mode.of(&robot)?, self.det.sign());
+        let modes: Vec<_> = mode.into_iter().collect();
+        let mut found = self.analysing.with(&robot, &modes, |analysis, _| {
             let graph = self.through_modes.then(|| ModeGraph::new(analysis));
             Ok(traversability(analysis, graph.as_ref(), set)?)
         })?;
+        let is_asked = |class: &ClassHolds| {
+            mode.is_none_or(|mode| class.mode == mode) && det_a.is_none_or(|sign| class.det_a == sign)
+        };
+        found.classes.retain(is_asked);
         let domains = map.as_ref().map(|map| domains_of(map, &found));
         if self.shown.json() {
             let (format_version, robot) = (FORMAT_VERSION, robot.name.as_str());

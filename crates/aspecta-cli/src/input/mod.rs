@@ -6,12 +6,15 @@ mod rows;
 pub use rows::{Row, Rows, rows};
 
 use crate::failure::Failure;
+use crate::output::{note, number};
 use aspecta::domain::Map;
 use aspecta::kinematics::WorkingMode;
-use aspecta::robot::Robot;
+use aspecta::robot::{MixedUnits, Robot};
+use std::f64::consts::TAU;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
+use std::sync::Once;
 
 /// Named numbers that are read together: the coordinates of a pose or of a joint vector.
 #[derive(Clone)]
@@ -47,12 +50,28 @@ impl Columns {
         self
     }
 
-    /// Degrees to radians, where `values` are angles given in degrees.
+    /// Degrees to radians, where `values` are angles given in degrees; else warns of angles that seem to be.
     fn to_radians(&self, values: &mut [f64], degrees: bool) {
+        let angles = values.iter_mut().zip(&self.angles).filter(|(_, angle)| **angle);
         if degrees {
-            let angles = values.iter_mut().zip(&self.angles).filter(|(_, angle)| **angle);
             angles.for_each(|(x, _)| *x = x.to_radians());
+        } else {
+            let named = self.names.iter().zip(&*values).zip(&self.angles).filter(|(_, angle)| **angle);
+            named.for_each(|((name, x), _)| warn_of_degrees(name, *x, "--deg"));
         }
+    }
+}
+
+/// Warns, once, of an angle in radians that is more than a full turn: `way` is how degrees are given.
+pub fn warn_of_degrees(name: &str, angle: f64, way: &str) {
+    static WARNED: Once = Once::new();
+    if angle.abs() > TAU {
+        WARNED.call_once(|| {
+            let turns = angle.abs() / TAU;
+            note(&format!(
+                "warning: {name} = {angle} is taken in radians, {turns:.1} full turns; if it is in degrees, give {way}"
+            ));
+        });
     }
 }
 
@@ -86,7 +105,23 @@ pub fn robot(name_or_path: &str) -> Result<Robot, Failure> {
             "`{name_or_path}` is a map of a robot's aspects, for `aspecta locate` and `aspecta domains`: give the robot's name or file"
         )));
     }
-    Ok(Robot::resolve(name_or_path)?)
+    let robot = Robot::resolve(name_or_path)?;
+    warn_of_mixed_units(&robot);
+    Ok(robot)
+}
+
+/// Warns of a robot of which some lengths seem to be in other units than others.
+pub fn warn_of_mixed_units(robot: &Robot) {
+    if let Some(MixedUnits { small, large }) = robot.mixed_units() {
+        let (unit, ratio) = (&robot.length_unit, large.1 / small.1);
+        note(&format!(
+            "warning: {} is {} {unit} and {} {} {unit}, {ratio:.0} times as much; all lengths of a robot file are in one unit",
+            small.0,
+            number(small.1),
+            large.0,
+            number(large.1)
+        ));
+    }
 }
 
 /// The working mode given to `--mode`, which must be one of the robot's.

@@ -36,6 +36,8 @@ pub struct Rows<'a> {
     layouts: &'a [Columns],
     shape: Option<Shape>,
     degrees: bool,
+    /// Whether nan and inf are numbers too.
+    unbounded: bool,
     ended: bool,
     any: bool,
 }
@@ -53,7 +55,13 @@ impl<'a> Rows<'a> {
         };
         let name = if path == "-" { "stdin" } else { path };
         let fields = Fields::default();
-        Ok(Self { name, lines, line: 0, fields, layouts, shape: None, degrees, ended: false, any: false })
+        let (shape, unbounded, ended, any) = (None, false, false, false);
+        Ok(Self { name, lines, line: 0, fields, layouts, shape, degrees, unbounded, ended, any })
+    }
+
+    /// Takes numbers that are not finite too, which whoever reads the rows refuses: one of them does not end a stream.
+    pub fn unbounded(self) -> Self {
+        Self { unbounded: true, ..self }
     }
 
     /// A message about a line.
@@ -85,7 +93,7 @@ impl<'a> Rows<'a> {
             }
         };
         let mode = shape.mode.and_then(|k| fields.get(k)).map(|&mode| mode.to_owned());
-        Ok(Some(Row { line: self.line, values: shape.read(&fields, self.degrees)?, mode }))
+        Ok(Some(Row { line: self.line, values: shape.read(&fields, self.degrees, self.unbounded)?, mode }))
     }
 
     fn next_row(&mut self) -> Result<Option<Row>, Failure> {
@@ -153,7 +161,7 @@ impl Shape {
         Ok(Self { columns: columns.clone(), fields: (0..row.len()).collect(), width: row.len(), mode: None })
     }
 
-    fn read(&self, record: &[&str], degrees: bool) -> Result<Vec<f64>, String> {
+    fn read(&self, record: &[&str], degrees: bool, unbounded: bool) -> Result<Vec<f64>, String> {
         if record.len() != self.width {
             return Err(format!(
                 "{}, but the first line has {}",
@@ -162,7 +170,7 @@ impl Shape {
             ));
         }
         let number = |(&field, name): (&usize, &String)| match record[field].parse::<f64>() {
-            Ok(x) if x.is_finite() => Ok(x),
+            Ok(x) if unbounded || x.is_finite() => Ok(x),
             Ok(x) => Err(format!("column {}, {name}: {x} is not a finite number", field + 1)),
             Err(_) => Err(format!("column {}, {name}: `{}` is not a number", field + 1, record[field])),
         };

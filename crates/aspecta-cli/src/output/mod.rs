@@ -9,6 +9,7 @@ pub use aspecta::text::{Align, Labels, Table, brief, det_a_unit, number, unsigne
 pub use target::Target;
 
 use crate::failure::Failure;
+use aspecta::robot::is_unprintable;
 use serde::Serialize;
 use serde_json::ser::{CompactFormatter, Formatter, PrettyFormatter, Serializer};
 use std::io::{self, Write};
@@ -58,8 +59,20 @@ fn json_in(out: &mut dyn Write, value: &impl Serialize, layout: impl Formatter) 
 }
 
 /// A message to the user on stderr. There is nobody to tell if stderr is closed.
+///
+/// What of a file is in it cannot move the terminal.
 pub fn note(message: &str) {
-    let _ = writeln!(io::stderr(), "{message}");
+    let _ = writeln!(io::stderr(), "{}", printable(message));
+}
+
+/// A message in which characters that cannot be seen are written out, as `\u{1b}`.
+fn printable(message: &str) -> String {
+    let shown = |c: char| match c {
+        '\n' | '\t' => c.to_string(),
+        c if is_unprintable(c) => c.escape_unicode().to_string(),
+        c => c.to_string(),
+    };
+    message.chars().map(shown).collect()
 }
 
 /// A number for machines: the shortest that reads back as the same.

@@ -1,13 +1,17 @@
 //! A robot that is singular wherever it goes.
 
 use crate::output::note;
-use aspecta::kinematics::seems_architecturally_singular;
+use aspecta::kinematics::{Architecture, architecture};
 use aspecta::robot::Robot;
-use aspecta::text::doubt::ARCHITECTURE;
+use aspecta::text::doubt::{ARCHITECTURE, nearly_singular};
 
 /// Warns of a robot that is singular wherever it goes.
 pub fn warn_of_architecture(robot: &Robot) {
-    if seems_architecturally_singular(robot) {
-        note(&format!("warning: {ARCHITECTURE}"));
+    match architecture(robot) {
+        Architecture::Regular => {}
+        Architecture::Singular => note(&format!("warning: {ARCHITECTURE}")),
+        Architecture::NearlySingular { measure } => {
+            note(&format!("warning: {}", nearly_singular(measure)));
+        }
     }
 }

@@ -164,7 +164,8 @@ fn bounds_that_meet_leave_no_doubts() {
     let text = stdout("analyze five-bar");
     assert!(!text.contains("undecided there"), "{text}");
     let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(words.ends_with("the bounds meet, exactly 10 aspects."), "{text}");
+    assert!(words.contains("the bounds meet, exactly 10 aspects. Table 2"), "{text}");
+    assert!(words.ends_with("number of generalized aspects, certified: exactly 10"), "{text}");
 }
 
 /// Robots with six degrees of freedom: slices, all 64 working modes of the Hexa or those asked for, in 100 columns.

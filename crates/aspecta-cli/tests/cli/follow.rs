@@ -91,21 +91,15 @@ fn refusals_say_why_and_where() {
 
 #[test]
 fn bad_input_ends_with_status_2() {
-    let joints = "11.18033988749895,15.965483,23.198890\n";
     let cases = [
         ("follow five-bar --pose 4,7", "0.5,3\n", "stdin:1: no solution for this joint vector is proved"),
         ("follow five-bar --pose 4,7", "0.5,one\n", "stdin:1: column 2, q2: `one` is not a number"),
         ("follow five-bar --pose 4", "0.5,1\n", "stdin:1: robot `five-bar` has 2 pose coordinates (x, y)"),
-        (
-            "follow five-bar --inverse --mode ++",
-            "4,7\n4,7.01\n4,nan\n",
-            "stdin:3: column 2, y: NaN is not a finite",
-        ),
         ("follow five-bar --inverse --mode ++", "40,7\n", "stdin:1: leg 1 cannot close at the pose"),
         ("follow five-bar --inverse --mode ++", "", "stdin holds no rows"),
         ("follow five-bar --inverse --mode +++", "4,7\n", "`+++` is not a working mode"),
         ("follow 3-rpr --pose 5,10,0.3", "11,0,23\n", "leg 2 is a strut, whose length must be positive"),
-        ("follow 3-rpr --pose 5,10,0.3", &format!("{joints}11,0,23\n"), "stdin:2: joint coordinate 2 is 0"),
+        ("follow five-bar --inverse --mode ++", "4,nan\n", "stdin:1: pose coordinate 2 is NaN"),
         ("follow five-bar", "4,7\n", "--pose"),
         ("follow five-bar --pose 4,7 --inverse", "4,7\n", "cannot be used with"),
     ];

@@ -2,6 +2,7 @@
 
 mod analyze;
 mod bad_input;
+mod cases;
 mod check_path;
 mod csv;
 mod cusps;

@@ -42,7 +42,7 @@ pub fn margin<T: Scalar, const D: usize>(
     placement: &Placement<T, D>,
 ) -> T {
     match limit {
-        Limit::ActuatorAngle { middle, half_cos } => match at.drive(sh) {
+        Limit::ActuatorAngle { middle, half_cos, .. } => match at.drive(sh) {
             Drive::Angle { cos, sin, norm } => {
                 cos.scale(middle.0) + sin.scale(middle.1) - norm.scale(*half_cos)
             }

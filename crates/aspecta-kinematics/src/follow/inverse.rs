@@ -7,7 +7,7 @@ use crate::modal::{ModalRows, closures};
 use crate::placement::Placement;
 use crate::{Kinematics, WorkingMode, for_platform};
 use aspecta_robot::legs::Drive;
-use aspecta_robot::num::{Interval, Scalar, each, padded, without_turns};
+use aspecta_robot::num::{Interval, Scalar, each, padded, turned_to};
 use aspecta_robot::{LegIndex, Robot};
 
 /// Follows the inverse solution of one working mode: given the next pose, the joint vector in the same mode, certified,
@@ -127,8 +127,7 @@ fn advance<const D: usize, const N: usize>(
             Ok(kept) => {
                 let next = joints::<D, N>(robot, mode, &segment.at(to));
                 for (j, leg) in robot.legs.iter().enumerate().take(N) {
-                    let turning = leg.actuator.is_angle();
-                    q[j] = if turning { q[j] + without_turns(next[j] - q[j]) } else { next[j] };
+                    q[j] = if leg.actuator.is_angle() { turned_to(next[j], q[j]) } else { next[j] };
                 }
                 (from, regular) = (to, regular && kept);
                 true

@@ -8,7 +8,7 @@ mod text;
 pub mod time;
 
 use aspecta_robot::Robot;
-use aspecta_robot::num::without_turns;
+use aspecta_robot::num::turned_to;
 
 pub use check::{
     Asked, Clearance, Joined, Least, Obstacle, PathCheck, PathError, PathOptions, ProfilePoint, check_joints,
@@ -30,8 +30,7 @@ pub fn units(robot: &Robot) -> [f64; 6] {
 pub fn go_on_from(robot: &Robot, last: &[f64], q: &mut [f64]) -> f64 {
     let angles = q.iter_mut().zip(last).zip(&robot.legs).filter(|(_, leg)| leg.actuator.is_angle());
     angles.fold(0.0, |furthest, ((q, last), _)| {
-        let turn = without_turns(*q - last);
-        *q = last + turn;
-        f64::max(furthest, turn.abs())
+        *q = turned_to(*q, *last);
+        f64::max(furthest, (*q - last).abs())
     })
 }

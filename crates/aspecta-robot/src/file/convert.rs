@@ -130,7 +130,12 @@ impl Context<'_> {
         let (min, max) = self.ordered(&angle.value, span)?;
         let full = 2.0 * angle.unit.half_turn();
         if max.hi - min.lo >= full {
-            return Err(Fault::new(span, Problem::FullTurn));
+            let (min, max) = (angle.value.0[0].value.0, angle.value.0[1].value.0);
+            let problem = match angle.unit {
+                Unit::Rad if min.abs().max(max.abs()) > full => Problem::DegreesAsRadians { min, max },
+                Unit::Rad | Unit::Deg => Problem::FullTurn,
+            };
+            return Err(Fault::new(span, problem));
         }
         if min.lo.abs().max(max.hi.abs()) > 2.0 * full {
             let problem = Problem::AngleOutOfRange { what: "a limit", range: "within two turns of zero" };
@@ -244,6 +249,11 @@ impl Unit {
                 (cos, sin)
             }
         }
+    }
+
+    /// The middle of a range: rad, rounded.
+    pub fn middle(self, (min, max): (Interval, Interval)) -> f64 {
+        0.5 * (min.mid() + max.mid()) * std::f64::consts::PI / self.half_turn()
     }
 
     /// (cos, sin) of the middle of a range and cos of its half-width.

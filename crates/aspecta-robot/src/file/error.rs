@@ -90,7 +90,7 @@ pub enum Problem {
     #[error("the name is empty; {}", hint("name"))]
     Nameless,
     /// Words with line breaks and the like.
-    #[error("a line break, tab or other control character; write it in one line, with blanks")]
+    #[error("a line break, tab or other character that cannot be seen; write it in one line, with blanks")]
     NotOneLine,
     /// A key no robot file has here.
     #[error("unknown key{}; the keys here are {}", suggest(.closest), list(.known))]
@@ -175,6 +175,17 @@ pub enum Problem {
     /// A range of a full turn or more.
     #[error("a range of a full turn or more limits nothing; leave it out")]
     FullTurn,
+    /// Degrees that are given as radians, it seems.
+    #[error(
+        "[{}, {}] radians are a full turn or more and would limit nothing; if they are degrees, write {{ deg = [{}, {}] }}",
+        written(*.min), written(*.max), written(*.min), written(*.max)
+    )]
+    DegreesAsRadians {
+        /// Lower limit.
+        min: f64,
+        /// Upper limit.
+        max: f64,
+    },
     /// An angle outside the range that has a meaning.
     #[error("{what} must lie {range}; give an angle in that range")]
     AngleOutOfRange {

@@ -7,7 +7,7 @@ use super::locate::Fault;
 use crate::frame::{crank_frame, rail_frame, unit};
 use crate::legs::Kind;
 use crate::num::Interval;
-use crate::{BASE_FRAME, Frame};
+use crate::{BASE_FRAME, Frame, Platform};
 use std::ops::Range as Span;
 
 const ORIGIN: [Interval; 3] = [Interval::point(0.0); 3];
@@ -27,7 +27,12 @@ impl<'a> LegKeys<'a> {
     pub fn points(&self) -> Result<([Interval; 3], [Interval; 3]), Fault> {
         let LegTable { anchor, attachment, .. } = &self.leg.value;
         let anchor = self.context.vector(required(anchor, "anchor", &self.leg.span)?)?;
-        let attachment = attachment.as_ref().map_or(Ok(ORIGIN), |c| self.context.vector(c))?;
+        let Some(given) = attachment else { return Ok((anchor, ORIGIN)) };
+        let attachment = self.context.vector(given)?;
+        if self.context.platform == Platform::PlanePoint && attachment != ORIGIN {
+            let reason = "all legs of a `plane-point` end in the point itself, which has no frame of its own: leave the attachment out";
+            return Err(Fault::new(&given.span, Problem::OutOfPlace { reason: reason.into() }));
+        }
         Ok((anchor, attachment))
     }
 

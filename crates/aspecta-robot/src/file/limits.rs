@@ -40,8 +40,11 @@ impl Context<'_> {
         let what = || format!("the driven joint of a `{}` leg", kind.name());
         match (&range.value, kind.facts().is_angle) {
             (Range::Angle(angle), true) => {
-                let (middle, half_cos) = angle.unit.middle_and_half(self.turn(angle, &range.span)?);
-                Ok(Limit::ActuatorAngle { middle, half_cos })
+                let ends = self.turn(angle, &range.span)?;
+                let (middle, half_cos) = angle.unit.middle_and_half(ends);
+                let (meant, found) = (angle.unit.middle(ends), middle.1.mid().atan2(middle.0.mid()));
+                let turns = ((meant - found) / std::f64::consts::TAU).round() as i32;
+                Ok(Limit::ActuatorAngle { middle, half_cos, turns })
             }
             (Range::Length(pair), false) => {
                 let (min, max) = self.ordered(pair, &range.span)?;

@@ -14,6 +14,7 @@ pub use error::{FileError, Mistake, Problem};
 pub(crate) use keys::LegKeys;
 pub(crate) use locate::Fault;
 pub(crate) use words::is_line;
+pub use words::is_unprintable;
 
 use super::{Robot, catalogue};
 use serde::Deserialize;

@@ -41,7 +41,7 @@ pub enum Drive<T> {
 }
 
 impl Drive<f64> {
-    /// q: rad in (−π, π], or a length.
+    /// q as it is computed: rad in (−π, π], or a length. People are told [`Leg::joint_value`](crate::Leg::joint_value).
     pub fn value(self) -> f64 {
         match self {
             Self::Angle { cos, sin, .. } => sin.atan2(cos),

@@ -1,7 +1,7 @@
 //! A plot with axes: ticks, units and equal scale.
 
 use super::svg::{Anchor, Number, Svg};
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 /// Frames and ticks, in [`super::palette::INK`].
 const THIN: &str = "fill:none;stroke:#222;stroke-width:0.8";
@@ -15,6 +15,13 @@ pub struct Axis {
     pub range: (f64, f64),
     /// Whether the coordinate is an angle (rad): ticks at multiples of π.
     pub angle: bool,
+}
+
+impl Axis {
+    /// Whether its two ends are the same angle.
+    pub fn is_full_turn(&self) -> bool {
+        self.angle && self.span() > TAU - 1e-9
+    }
 }
 
 /// A plot: a rectangle of the figure that shows a rectangle of the plane, y upward.

@@ -58,7 +58,7 @@ fn barriers<const D: usize, const N: usize>(robot: &Robot, mode: WorkingMode, po
         if leg.actuator.postures() == 2 {
             margins.push((Kind::Serial, closure.reach));
         }
-        q.push(leg.actuator.drive(&at.span, closure, sh).value());
+        q.push(leg.joint_value(leg.actuator.drive(&at.span, closure, sh)));
     }
     let at = Configuration { robot, placement: &placement, legs: &legs, heights: &heights, mode };
     margins.extend(at.limits().map(|(_, margin)| (Kind::Limit, margin)));

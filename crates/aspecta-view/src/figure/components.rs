@@ -14,7 +14,7 @@ use super::survey::joint_axis;
 use aspecta::domain::boundary::Simplex;
 use aspecta::domain::{OUTSIDE, Sheet};
 use aspecta::num::without_turns;
-use aspecta::robot::LegIndex;
+use aspecta::robot::{Leg, LegIndex};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
@@ -95,7 +95,7 @@ impl<'a> JointSpace<'a> {
             .collect();
         let axis = |k: usize| {
             let values = inside.iter().chain(&vertices).map(|q| q[k]).collect();
-            joint_axis(robot, joints[k], range(values, robot.legs[joints[k]].actuator.is_angle()))
+            joint_axis(robot, joints[k], range(values, &robot.legs[joints[k]]))
         };
         Some(Self {
             hues: Hues::new(domains),
@@ -205,11 +205,11 @@ impl<'a> JointSpace<'a> {
     }
 }
 
-/// The range of values of a joint.
-fn range(mut values: Vec<f64>, angle: bool) -> (f64, f64) {
+/// The range of values of the joint of a leg.
+fn range(mut values: Vec<f64>, leg: &Leg) -> (f64, f64) {
     values.sort_unstable_by(f64::total_cmp);
     let (Some(&first), Some(&last)) = (values.first(), values.last()) else { return (0.0, 1.0) };
-    if !angle {
+    if !leg.actuator.is_angle() {
         let margin = MARGIN * if last > first { last - first } else { 1.0 };
         return (first - margin, last + margin);
     }
@@ -218,14 +218,15 @@ fn range(mut values: Vec<f64>, angle: bool) -> (f64, f64) {
     let (gap, start) = gaps.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((0.0, -PI));
     if gap < FREE {
         let mut counts = [0; SECTORS];
-        let sector = |angle: &f64| ((angle + PI) / TAU * SECTORS as f64) as usize % SECTORS;
+        let sector = |angle: &f64| ((angle + PI).rem_euclid(TAU) / TAU * SECTORS as f64) as usize % SECTORS;
         values.iter().for_each(|angle| counts[sector(angle)] += 1);
         let cut = (0..SECTORS).min_by_key(|&k| counts[k]).unwrap_or(0);
         // In its middle, so that sections are not at multiples of a right angle, where robots are special.
         let start = -PI + TAU * (cut as f64 + 0.5) / SECTORS as f64;
-        return (start, start + TAU);
+        return leg.drive_range().unwrap_or((start, start + TAU));
     }
     let half = 0.5 * (1.0 + 2.0 * MARGIN) * (TAU - gap);
-    let middle = without_turns(start + 0.5 * (TAU - gap));
-    (middle - half, middle + half)
+    let middle = leg.in_range(without_turns(start + 0.5 * (TAU - gap)));
+    let (least, most) = leg.drive_range().unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
+    ((middle - half).max(least), (middle + half).min(most))
 }

@@ -33,6 +33,12 @@ pub struct Curve {
     which: Which,
 }
 
+/// A line in Q, and the kind of singularity or limit that it shows.
+pub type Image = (Kind, Vec<Vec<f64>>);
+
+/// A step between two points of a curve is halved at most so often before it counts as a jump.
+const HALVINGS: u32 = 20;
+
 /// Which barrier: det A, or one of [`Barriers::margins`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Which {
@@ -127,38 +133,43 @@ impl Sheet<'_> {
         best
     }
 
-    /// The image g_s(curve) in Q, refined until no coordinate q_k steps by more than `step[k]`; angles are
-    /// unwound, so that the line is continuous and may leave (−π, π].
-    pub fn image(&self, curve: &Curve, step: &[f64]) -> Vec<Vec<f64>> {
+    /// The image g_s(curve) in Q, refined until no coordinate q_k steps by more than `step[k]`; angles are unwound, so
+    /// that each line is continuous. Where a step stays wide however near its ends are in W, a leg is folded between them (C on the
+    /// axis of its crank): its joint is free there, and the line across is the image of that serial singularity.
+    pub fn images(&self, curve: &Curve, step: &[f64]) -> Vec<Image> {
         let Some(&first) = curve.points.first() else { return Vec::new() };
-        let mut image = vec![self.barriers(first).q];
+        let mut images = vec![(curve.kind, vec![self.barriers(first).q])];
         for pair in curve.points.windows(2) {
-            self.extend_image(curve.which, pair[0], pair[1], step, 12, &mut image);
+            self.extend_images(curve, (pair[0], pair[1]), step, HALVINGS, &mut images);
         }
-        image
+        images.retain(|(_, line)| line.len() > 1);
+        images
     }
 
-    fn extend_image(
+    fn extend_images(
         &self,
-        which: Which,
-        a: [f64; 2],
-        b: [f64; 2],
+        curve: &Curve,
+        (a, b): ([f64; 2], [f64; 2]),
         step: &[f64],
         depth: u32,
-        image: &mut Vec<Vec<f64>>,
+        images: &mut Vec<Image>,
     ) {
-        let Some(last) = image.last() else { return };
-        let q = unwind(self.robot, self.barriers(b).q, last);
+        let Some(last) = images.last().and_then(|(_, line)| line.last()).cloned() else { return };
+        let q = unwind(self.robot, self.barriers(b).q, &last);
         let far = (0..q.len()).any(|k| (q[k] - last[k]).abs() > step[k]);
         if far
             && depth > 0
-            && let Some(middle) = project(a, b, 0.5, &|p| self.value(which, p))
+            && let Some(middle) = project(a, b, 0.5, &|p| self.value(curve.which, p))
         {
-            self.extend_image(which, a, middle, step, depth - 1, image);
-            self.extend_image(which, middle, b, step, depth - 1, image);
+            self.extend_images(curve, (a, middle), step, depth - 1, images);
+            self.extend_images(curve, (middle, b), step, depth - 1, images);
             return;
         }
-        image.push(q);
+        if far && depth == 0 {
+            images.extend([(Kind::Serial, vec![last, q.clone()]), (curve.kind, vec![q])]);
+        } else if let Some((_, line)) = images.last_mut() {
+            line.push(q);
+        }
     }
 }
 

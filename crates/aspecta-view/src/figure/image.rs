@@ -112,8 +112,7 @@ impl Canvas<'_> {
     /// The pixel itself, its copy on a full turn, or none beyond the plot.
     fn wrap(&self, pixel: i64, axis: usize) -> Option<usize> {
         let n = self.raster.size().0 as i64;
-        let turns = self.sheet.robot.legs[axis].actuator.is_angle();
-        let pixel = if turns { pixel.rem_euclid(n) } else { pixel };
+        let pixel = if self.axes[axis].is_full_turn() { pixel.rem_euclid(n) } else { pixel };
         (0..n).contains(&pixel).then_some(pixel as usize)
     }
 }

@@ -100,8 +100,8 @@ fn mode_curves(sheet: &Sheet<'_>, grid: &Grid, joint_axes: Option<&[Axis; 2]>) -
     let curves = sheet.curves(grid);
     let images = |axes: &[Axis; 2]| {
         let step = [0, 1].map(|k| axes[k].span() / 200.0);
-        let image = |c| sheet.image(c, &step).into_iter().map(|q| [q[0], q[1]]).collect();
-        curves.iter().map(|c| (c.kind, image(c))).collect()
+        let images = curves.iter().flat_map(|curve| sheet.images(curve, &step));
+        images.map(|(kind, line)| (kind, line.iter().map(|q| [q[0], q[1]]).collect())).collect()
     };
     let q = joint_axes.map_or(Vec::new(), images);
     ModeCurves { mode: sheet.mode, q, w: curves.into_iter().map(|c| (c.kind, c.points)).collect() }
@@ -126,7 +126,7 @@ pub fn coordinate_name(name: &str) -> &str {
     if name == "phi" { "φ" } else { name }
 }
 
-/// A full turn for angles, the bounds over all aspects for lengths.
+/// The joint's own range for angles, a full turn if it has none; the bounds over all aspects for lengths.
 fn joint_axes(robot: &Robot, classes: &[AspectClass]) -> [Axis; 2] {
     [0, 1].map(|k| {
         let angle = robot.legs[k].actuator.is_angle();
@@ -134,7 +134,7 @@ fn joint_axes(robot: &Robot, classes: &[AspectClass]) -> [Axis; 2] {
         let (lo, hi) =
             (bounds().map(|b| b.0).fold(f64::MAX, f64::min), bounds().map(|b| b.1).fold(f64::MIN, f64::max));
         let range = if angle {
-            (-PI, PI)
+            robot.legs[k].drive_range().unwrap_or((-PI, PI))
         } else if lo < hi {
             (lo, hi)
         } else {

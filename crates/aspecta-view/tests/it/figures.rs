@@ -3,7 +3,7 @@
 use crate::common::{analysis, five_bar, three_rrr};
 use aspecta::Kinematics;
 use aspecta::aspect::{AspectId, Cell, ClassId, DetSign, ModeReport, Reachable};
-use aspecta::robot::Robot;
+use aspecta::robot::{Robot, catalogue};
 use aspecta_view::figure::axes::Axis;
 use aspecta_view::figure::barrier::{Barriers, Kind};
 use aspecta_view::figure::curves::{Curve, Plane, Sheet};
@@ -85,13 +85,35 @@ fn images_of_curves_are_continuous() {
     let sheet = Sheet { robot: &robot, mode: "+-".parse().unwrap(), plane: &plane };
     let mut beyond = false;
     for curve in curves(&robot, "+-") {
-        let image = sheet.image(&curve, &[0.03; 2]);
-        for pair in image.windows(2) {
+        let images = sheet.images(&curve, &[0.03; 2]);
+        assert!(images.len() == 1, "this five-bar has no leg that can fold");
+        for pair in images[0].1.windows(2) {
             assert!((0..2).all(|k| (pair[0][k] - pair[1][k]).abs() < 0.06), "{pair:?}");
         }
-        beyond |= image.iter().flatten().any(|q| q.abs() > PI);
+        beyond |= images[0].1.iter().flatten().any(|q| q.abs() > PI);
     }
     assert!(beyond, "no curve of this mode passes π: the test tests nothing");
+}
+
+/// Where C comes to lie on A2 the second leg is folded and its crank free: a serial singularity, which no line of det A = 0
+/// crosses.
+#[test]
+fn folds_are_not_drawn_as_parallel_singularities() {
+    let robot = catalogue::find("symmetric-five-bar").unwrap();
+    let window = robot.slice(&[]).unwrap();
+    let plane = Plane { through: vec![0.0; 2], axes: [0, 1] };
+    let mut folds = 0;
+    for mode in robot.working_modes() {
+        let sheet = Sheet { robot: &robot, mode, plane: &plane };
+        let grid = Grid { x: window.ranges[0], y: window.ranges[1], n: 200 };
+        for (kind, line) in sheet.curves(&grid).iter().flat_map(|curve| sheet.images(curve, &[0.03; 2])) {
+            let is_wide = |pair: &[Vec<f64>]| (0..2).any(|k| (pair[0][k] - pair[1][k]).abs() > 0.06);
+            let wide = line.windows(2).filter(|pair| is_wide(pair)).count();
+            assert!(kind == Kind::Serial || wide == 0, "{mode}: {kind:?} {line:?}");
+            folds += wide;
+        }
+    }
+    assert!(folds > 0, "no curve passes a fold: the test tests nothing");
 }
 
 /// A cell whose q1 passes π appears at both edges of Q, and nowhere between.

@@ -18,7 +18,7 @@ use super::search::Search;
 use crate::paving::{Budget, Control, MODES, Mark, Node, Paving, Progress, Stop};
 use aspecta_kinematics::chart::uncharted_folds;
 use aspecta_kinematics::parallel_rods::parallel_rods;
-use aspecta_kinematics::{Kinematics, WorkingMode, seems_architecturally_singular};
+use aspecta_kinematics::{Architecture, Kinematics, WorkingMode, architecture};
 use aspecta_robot::work::Stopwatch;
 use aspecta_robot::{Leg, LegIndex, Robot, Window, work};
 use aspecta_verify::certificate::Certificate;
@@ -92,7 +92,7 @@ fn analyze_here(robot: &Robot, options: &Options, control: &Control<'_>) -> Resu
     let modes = if options.modes.is_empty() { &all_modes } else { &options.modes };
     let parallel_rods = parallel_rods(robot, &window);
     let uncharted_folds = uncharted_folds(robot, &window);
-    let architecturally_singular = seems_architecturally_singular(robot);
+    let architecturally_singular = architecture(robot) == Architecture::Singular;
     let hopeful = parallel_rods.is_empty() && uncharted_folds.is_empty() && !architecturally_singular;
     let budget = bounded(options.budget, hopeful);
     let mut passes: Vec<Pass> = Vec::new();

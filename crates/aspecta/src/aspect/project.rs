@@ -10,11 +10,12 @@ use aspecta_kinematics::{WorkingMode, for_platform};
 use aspecta_robot::legs::Drive;
 use aspecta_robot::num::Interval;
 use aspecta_robot::{Leg, Robot};
+use std::f64::consts::TAU;
 
 /// The smallest range that holds all the intervals; on a circle of 2π, the complement of the widest gap
 /// (its upper end may lie beyond π), or (−π, π) if there is none.
 pub(super) fn hull(mut ranges: Vec<Interval>, circular: bool) -> (f64, f64) {
-    use std::f64::consts::{PI, TAU};
+    use std::f64::consts::PI;
     let whole = ranges.iter().fold(None, |h: Option<Interval>, &r| Some(h.map_or(r, |h| h.hull(r))));
     let Some(whole) = whole else { return (0.0, 0.0) };
     if !circular {
@@ -123,7 +124,19 @@ pub(super) fn q_bounds(robot: &Robot, paving: &Paving, mode: WorkingMode, boxes:
         joints.into_iter().enumerate().map(within).collect()
     };
     add_images(paving, boxes, &mut unions, &image);
-    unions.into_iter().zip(&robot.legs).map(|(union, leg)| hull(union.0, leg.actuator.is_angle())).collect()
+    let bounds = |(union, leg): (Union, &Leg)| in_range(leg, hull(union.0, leg.actuator.is_angle()));
+    unions.into_iter().zip(&robot.legs).map(bounds).collect()
+}
+
+/// Bounds of a joint's values, by full turns in the joint's own range.
+fn in_range(leg: &Leg, (lo, hi): (f64, f64)) -> (f64, f64) {
+    let middle = 0.5 * (lo + hi);
+    let turns = ((leg.in_range(middle) - middle) / TAU).round();
+    if turns == 0.0 {
+        return (lo, hi);
+    }
+    let turned = |x: f64| Interval::point(x) + Interval::PI * Interval::point(2.0 * turns);
+    (turned(lo).lo, turned(hi).hi)
 }
 
 /// Enclosures of the joints over a box, wherever the legs close in it.
@@ -155,10 +168,11 @@ fn common(limit: Interval, x: Interval, leg: &Leg) -> Interval {
     if !leg.actuator.is_angle() {
         return clamped(x, (limit.lo, limit.hi));
     }
-    if x.width() >= std::f64::consts::TAU {
+    if x.width() >= TAU {
         return limit;
     }
-    let turned = |k: f64| limit + Interval::PI * Interval::point(2.0 * k);
+    let nearest = ((x.mid() - limit.mid()) / TAU).round();
+    let turned = |k: f64| limit + Interval::PI * Interval::point(2.0 * (nearest + k));
     let mut shared =
         [-2.0, -1.0, 0.0, 1.0, 2.0].map(turned).into_iter().filter(|l| l.lo <= x.hi && x.lo <= l.hi);
     match (shared.next(), shared.next()) {
@@ -190,6 +204,7 @@ mod tests {
         let arc = |middle: f64, half: f64| Limit::ActuatorAngle {
             middle: (Interval::point(middle.cos()), Interval::point(middle.sin())),
             half_cos: Interval::point(half.cos()),
+            turns: 0,
         };
         leg.limits = vec![arc(3.0, 0.5)];
         let limit = leg.drive_enclosure().unwrap();

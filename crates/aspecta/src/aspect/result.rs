@@ -40,7 +40,7 @@ pub struct Analysis {
     pub classes: Vec<AspectClass>,
     /// The doubts that keep the bounds apart; empty if the bounds meet.
     pub doubts: Vec<Doubt>,
-    /// Whether the robot seems to be singular wherever it goes ([`aspecta_kinematics::seems_architecturally_singular`], numerical): then nothing is
+    /// Whether the robot seems to be singular wherever it goes ([`aspecta_kinematics::architecture`], numerical): then nothing is
     /// ever decided.
     pub architecturally_singular: bool,
     /// Surfaces on which det A vanishes to higher order: a reason for doubts that no refinement removes.

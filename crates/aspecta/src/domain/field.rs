@@ -272,14 +272,15 @@ impl<const D: usize, const N: usize> Field<'_, D, N> {
     }
 
     /// g_s(X), extended by continuity: legs whose serial singularity is among `faces` have h = 0, as have
-    /// those that rounding puts beyond it. Angles in (−π, π].
+    /// those that rounding puts beyond it. Angles lie within the ranges of their joints.
     pub fn joints(&self, x: &[f64; N], faces: &[Option<Face>; 3]) -> [f64; N] {
         let placement = Placement::<f64, D>::at(self.robot.platform, x);
         let legs = closures::<f64, D, N>(self.robot, &placement);
         let heights = self.heights(&legs, flat_legs(faces));
         std::array::from_fn(|j| {
             let sh = f64::from(self.mode.sign(j)) * heights[j];
-            self.robot.legs[j].actuator.drive(&legs[j].span, &legs[j].closure, sh).value()
+            let leg = &self.robot.legs[j];
+            leg.joint_value(leg.actuator.drive(&legs[j].span, &legs[j].closure, sh))
         })
     }
 

@@ -13,6 +13,9 @@ use std::fmt::{self, Write};
 /// Aspects listed; the rest is in the analysis.
 const LISTED: usize = 40;
 
+/// Columns of ranges that fit side by side.
+const WIDEST: usize = 4;
+
 /// What Definitions 5 and 6 need.
 pub const EARLIER_NEED: &str = "they are made of all working modes, of up to 8, together";
 
@@ -34,8 +37,8 @@ pub struct AnalysisSummary<'a> {
     pub advice: AnalysisAdvice,
 }
 
-/// Prints Theorem 1, Tables 1 and 2, the number of aspects, where its bounds are apart, the aspects, Definitions 5 and 6, and
-/// the run, in 100 columns.
+/// Prints Theorem 1, Table 1, Definitions 5 and 6, the aspects and their ranges, the run, and last Table 2, the number of aspects and
+/// where its bounds are apart, in 100 columns.
 ///
 /// # Examples
 /// ```
@@ -75,22 +78,23 @@ fn write(out: &mut dyn Write, analysis: &Analysis, advice: &AnalysisAdvice) -> f
     }
     theorem_1(out, analysis)?;
     table_1(out, analysis)?;
-    table_2(out, analysis)?;
-    doubts::write(out, analysis, advice)?;
-    aspects(out, analysis, advice)?;
-    writeln!(out)?;
     let earlier_sets = [
         ("Def. 5, parallel aspects", &analysis.parallel_aspects),
         ("Def. 6, serial aspects", &analysis.serial_aspects),
     ];
+    writeln!(out)?;
     for (name, sets) in earlier_sets.into_iter().filter(|(_, sets)| !sets.is_empty()) {
         writeln!(out, "{}", paragraph(&earlier(name, sets, &analysis.measure)))?;
     }
     if analysis.parallel_aspects.is_empty() {
         writeln!(out, "{}", paragraph(&format!("Defs 5 and 6: left out, {EARLIER_NEED}.")))?;
     }
-    writeln!(out)?;
-    writeln!(out, "{}", paragraph(&run(analysis)))
+    aspects(out, analysis, advice)?;
+    ranges(out, analysis)?;
+    writeln!(out, "\n{}", paragraph(&run(analysis)))?;
+    // Last, where a terminal shows it: how many there are, and why that is not known better.
+    table_2(out, analysis)?;
+    doubts::write(out, analysis, advice)
 }
 
 /// What was held, if anything.
@@ -244,6 +248,37 @@ fn aspects(out: &mut dyn Write, analysis: &Analysis, advice: &AnalysisAdvice) ->
     write!(out, "{table}")?;
     if all.len() > LISTED {
         writeln!(out, "  … and {} more{}", all.len() - LISTED, advice.on_aspects)?;
+    }
+    Ok(())
+}
+
+/// The ranges of aspects: all of each in W, certainly, and the images of its certified boxes in Q.
+fn ranges(out: &mut dyn Write, analysis: &Analysis) -> fmt::Result {
+    let all: Vec<&Aspect> = analysis.classes.iter().flat_map(|c| &c.aspects).take(LISTED).collect();
+    if all.is_empty() {
+        return Ok(());
+    }
+    writeln!(out, "\nRanges of each aspect (certified; of the joints: where it is certified inside)")?;
+    let (shown, robot) = (shown(analysis), &analysis.robot);
+    let (pose, joints) = (Labels::pose(robot, false).only(&shown), Labels::joints(robot, false));
+    let of_pose = pose.headings().zip(shown.iter().map(|&k| (true, k)));
+    let of_joints = joints.headings().zip((0..robot.dof()).map(|k| (false, k)));
+    let columns: Vec<(String, (bool, usize))> = of_pose.chain(of_joints).collect();
+    let room = if columns.len() <= WIDEST { WIDEST } else { 3 };
+    for columns in columns.chunks(room) {
+        let mut table = Table::new(
+            [("id".to_owned(), Align::Right)]
+                .into_iter()
+                .chain(columns.iter().map(|(name, _)| (name.clone(), Align::Right))),
+        );
+        for aspect in &all {
+            let range = |&(_, (of_pose, k)): &(String, (bool, usize))| {
+                let (lo, hi) = if of_pose { aspect.w_bounds[k] } else { aspect.q_bounds[k] };
+                format!("{} to {}", brief(lo), brief(hi))
+            };
+            table.row([aspect.id.to_string()].into_iter().chain(columns.iter().map(range)));
+        }
+        write!(out, "{table}")?;
     }
     Ok(())
 }

@@ -2,6 +2,7 @@
 
 use crate::aspect::{Analysis, Doubt};
 use aspecta_kinematics::parallel_rods::ParallelRods;
+use aspecta_robot::text::brief;
 use aspecta_robot::{LegIndex, Robot};
 
 /// A coordinate of the place of a doubt.
@@ -32,6 +33,16 @@ pub fn place(robot: &Robot, doubt: &Doubt) -> Vec<Coordinate> {
     let names = own.clone().chain(pose.skip(own.count()));
     let all = names.zip(&doubt.place).map(|((name, unit), &range)| Coordinate { name, unit, range });
     all.filter(|c| c.range.0 < c.range.1).collect()
+}
+
+/// The message about a robot that is nearly singular at every pose.
+pub fn nearly_singular(measure: f64) -> String {
+    format!(
+        "det A nearly vanishes at every pose that was looked at: no smallest singular value of the homogeneous A is above {} (numerical). \
+         Platform and base may be similar, for instance, and det A differ from 0 only by the decimals in which they are written down: \
+         such a robot gives way with all actuators locked, whatever is proved of its aspects.",
+        brief(measure)
+    )
 }
 
 /// The message about a robot that is singular at every pose.

@@ -15,6 +15,7 @@ mod domains;
 mod explore;
 mod follow;
 mod free_body;
+mod joint_ranges;
 mod maps;
 mod motion;
 mod no_c;

@@ -52,7 +52,10 @@ fn leg(dice: &mut Dice, platform: Platform, kind: &str) -> String {
     if kind != "spherical" {
         text += &format!("anchor = {}\n", dice.vector(space, 6.0));
     }
-    text += &format!("attachment = {}\n", dice.vector(space, if kind == "spherical" { 1.0 } else { 3.0 }));
+    let attachment = dice.vector(space, if kind == "spherical" { 1.0 } else { 3.0 });
+    if platform != Platform::PlanePoint {
+        text += &format!("attachment = {attachment}\n");
+    }
     let turning = format!("axis = {}, zero = {}", dice.vector(3, 1.0), dice.vector(3, 1.0));
     let (crank, rod) = (dice.between(4.0, 9.0), dice.between(4.0, 9.0));
     let keys = match kind {
@@ -215,7 +218,7 @@ fn margin(limit: &Limit, leg: &Leg, platform: Platform, x: &[f64], q: f64) -> f6
         _ => ([0.0; 3], unit(&sub(&c, &mid(&leg.anchor)))),
     };
     match limit {
-        Limit::ActuatorAngle { middle, half_cos } => {
+        Limit::ActuatorAngle { middle, half_cos, .. } => {
             q.cos() * middle.0.mid() + q.sin() * middle.1.mid() - half_cos.mid()
         }
         Limit::ActuatorLength { min, max } => (q - min.mid()).min(max.mid() - q) / 10.0,

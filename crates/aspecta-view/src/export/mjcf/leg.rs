@@ -7,7 +7,6 @@ use super::element::Element;
 use crate::figure::skeleton::{LegShape, Point, times};
 use aspecta::legs::{Body, Joint};
 use aspecta::robot::{Leg, Limit, Platform};
-use std::f64::consts::TAU;
 
 /// Mass of a link. All forces are inertial, so only ratios of masses matter.
 const LINK: f64 = 0.1;
@@ -55,16 +54,6 @@ impl Limb<'_> {
         servo.numbers("kp", &[stiffness]).numbers("kv", &[2.0 * stiffness / FREQUENCY])
     }
 
-    /// q, for angles with limits the one of its turns that lies within them.
-    pub fn reading(&self) -> f64 {
-        match self.leg.drive_range() {
-            Some((low, high)) if self.leg.actuator.is_angle() => {
-                self.q + TAU * ((0.5 * (low + high) - self.q) / TAU).round()
-            }
-            _ => self.q,
-        }
-    }
-
     fn named(&self, name: &str) -> String {
         format!("{name}{}", self.number)
     }
@@ -97,7 +86,7 @@ impl Limb<'_> {
         let kind = if self.leg.actuator.is_angle() { "hinge" } else { "slide" };
         let joint =
             Element::new("joint").with("name", self.named("q")).with("type", kind).vector("axis", axis);
-        let joint = joint.numbers("ref", &[self.reading()]).numbers("armature", &[self.armature()]);
+        let joint = joint.numbers("ref", &[self.q]).numbers("armature", &[self.armature()]);
         match self.leg.drive_range() {
             Some((low, high)) => joint.numbers("range", &[low, high]),
             None => joint,

@@ -30,7 +30,7 @@ pub fn model(robot: &Robot, start: &Solution) -> String {
         thickness,
     };
     let limbs: Vec<Limb<'_>> = robot.legs.iter().enumerate().map(limb).collect();
-    let inputs: Vec<f64> = limbs.iter().map(Limb::reading).collect();
+    let inputs = &start.q;
     let bodies = limbs.iter().map(Limb::body).chain([platform(robot, start, &skeleton, thickness)]);
     let document = Element::new("mujoco")
         .with("model", &robot.name)
@@ -40,8 +40,7 @@ pub fn model(robot: &Robot, start: &Solution) -> String {
         .child(Element::new("equality").children(limbs.iter().map(Limb::closure)))
         .child(Element::new("actuator").children(limbs.iter().map(Limb::servo)))
         .child(
-            Element::new("keyframe")
-                .child(Element::new("key").with("name", "start").numbers("ctrl", &inputs)),
+            Element::new("keyframe").child(Element::new("key").with("name", "start").numbers("ctrl", inputs)),
         );
     format!("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n{document}")
 }

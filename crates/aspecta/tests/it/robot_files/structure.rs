@@ -72,7 +72,7 @@ fn words_that_name_nothing_or_break_lines() {
         let message = says(PLANE, "\"test\"", bad);
         assert_starts(
             &message,
-            &format!("name = {bad}: a line break, tab or other control character; write"),
+            &format!("name = {bad}: a line break, tab or other character that cannot be seen; write"),
         );
     }
     assert_starts(&says(PLANE, "\"test\"", "\"\"\"a\nb\"\"\""), "name: a line break");

@@ -1,0 +1,128 @@
+//! What moves at a configuration and what does not (Definitions 3 and 4): A t + B q̇ = 0.
+
+use super::LegIndex;
+use super::singularity::{SINGULAR, homogeneous};
+use crate::placement::Placement;
+use aspecta_robot::Robot;
+use nalgebra::{DMatrix, DVector};
+use serde::Serialize;
+
+/// The velocities that a configuration allows: twists t (translations, then the angular velocity) of the platform and speeds q̇ of the
+/// joints with A t + B q̇ = 0. *Numerical*, at the tolerance [`SINGULAR`].
+///
+/// Angular velocities count by the length of [`Velocities::length`]: twists of length 1 are given.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Velocities {
+    /// The length by which moments are divided to compare them with forces; `None` where nothing is: only translations, or only turns.
+    pub length: Option<f64>,
+    /// The singular values of the homogeneous A, greatest first; empty if A has no finite ones.
+    pub singular_values: Vec<f64>,
+    /// The rank of A.
+    pub rank_a: usize,
+    /// The rank of B: legs that are not at a serial singularity.
+    pub rank_b: usize,
+    /// The kernel of A: twists that the platform gains, which it can have while the actuators are locked (Definition 3).
+    pub gained: Vec<Vec<f64>>,
+    /// Per leg at a serial singularity the twist along which the platform cannot move, whatever the actuators do: t is perpendicular to it
+    /// (Definition 4).
+    pub lost: Vec<Lost>,
+    /// −A⁻¹B, by which t = −A⁻¹B q̇, row by row; `None` at a parallel singularity.
+    pub twist_of_joints: Option<Vec<Vec<f64>>>,
+}
+
+/// What a leg at a serial singularity takes from the platform.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Lost {
+    /// The leg.
+    pub leg: LegIndex,
+    /// How it stands.
+    pub posture: SerialPosture,
+    /// The direction that is lost, its translations of length 1 (for a platform that only turns, its turns).
+    pub twist: Vec<f64>,
+}
+
+/// How a leg stands at a serial singularity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+#[non_exhaustive]
+pub enum SerialPosture {
+    /// Crank and rod are one line, as long as both.
+    Stretched,
+    /// The rod lies back over the crank.
+    Folded,
+    /// The rod stands square to what its motor moves; legs on a sphere too.
+    Square,
+}
+
+impl Velocities {
+    pub(crate) fn new(
+        robot: &Robot,
+        pose: &[f64],
+        (a, b): (&[Vec<f64>], &[f64]),
+        serial: &[LegIndex],
+    ) -> Self {
+        let (n, coordinates) = (robot.dof(), robot.platform.coordinates());
+        let turns = coordinates.iter().filter(|c| c.angle).count();
+        let length = (0 < turns && turns < n).then(|| robot.characteristic_length());
+        // Column k of the homogeneous A belongs to the speed t_k times this.
+        let scale = |k: usize| if coordinates[k].angle { length.unwrap_or(1.0) } else { 1.0 };
+        let matrix = homogeneous(robot, a);
+        let lost = serial.iter().map(|&leg| Lost {
+            leg,
+            posture: posture(robot, pose, leg),
+            twist: matrix.row(leg.index()).iter().enumerate().map(|(k, x)| x * scale(k)).collect(),
+        });
+        let (mut singular_values, mut gained) = (Vec::new(), Vec::new());
+        if matrix.iter().all(|x| x.is_finite()) {
+            let svd = matrix.clone().svd(false, true);
+            let mut order: Vec<usize> = (0..n).collect();
+            order.sort_by(|&i, &j| svd.singular_values[j].total_cmp(&svd.singular_values[i]));
+            singular_values = order.iter().map(|&k| svd.singular_values[k]).collect();
+            let kernel = order.iter().filter(|&&k| svd.singular_values[k] <= SINGULAR);
+            let twist = |row: &usize| {
+                let v =
+                    svd.v_t.as_ref().map(|v| v.row(*row).transpose()).unwrap_or_else(|| DVector::zeros(n));
+                v.iter().enumerate().map(|(k, x)| x / scale(k)).collect()
+            };
+            gained = kernel.map(twist).collect();
+        }
+        let rank_a = singular_values.len() - gained.len();
+        let regular = rank_a == n;
+        Self {
+            length,
+            lost: lost.collect(),
+            rank_b: n - serial.len(),
+            twist_of_joints: regular.then(|| twist_of_joints(a, b)).flatten(),
+            rank_a,
+            singular_values,
+            gained,
+        }
+    }
+}
+
+fn twist_of_joints(a: &[Vec<f64>], b: &[f64]) -> Option<Vec<Vec<f64>>> {
+    let n = b.len();
+    let inverse = DMatrix::from_fn(n, n, |i, k| a[i][k]).try_inverse()?;
+    Some((0..n).map(|i| (0..n).map(|j| -inverse[(i, j)] * b[j]).collect()).collect())
+}
+
+/// How a leg stands whose two postures meet.
+fn posture(robot: &Robot, pose: &[f64], leg: LegIndex) -> SerialPosture {
+    let leg = robot.leg(leg);
+    let bend = match robot.platform.space() {
+        2 => leg.actuator.bend(&span::<2>(robot, pose, leg)),
+        _ => leg.actuator.bend(&span::<3>(robot, pose, leg)),
+    };
+    match bend {
+        Some((bend, _)) if bend > 0.0 => SerialPosture::Stretched,
+        Some(_) => SerialPosture::Folded,
+        None => SerialPosture::Square,
+    }
+}
+
+fn span<const D: usize>(robot: &Robot, pose: &[f64], leg: &aspecta_robot::Leg) -> [f64; D] {
+    let placement = Placement::<f64, D>::at(robot.platform, pose);
+    placement.span(leg, &placement.arm(leg))
+}
