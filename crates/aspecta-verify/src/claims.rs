@@ -7,6 +7,7 @@ use aspecta_robot::ClassSet;
 use aspecta_robot::WorkingMode;
 use aspecta_robot::chart::Chart;
 use aspecta_robot::num::Interval;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Most boxes into which the proof of a leaf is cut, before the claim counts as unproved.
 const EFFORT: usize = 20_000;
@@ -46,13 +47,14 @@ pub(super) fn sign_of(class: usize) -> f64 {
     if class.is_multiple_of(2) { 1.0 } else { -1.0 }
 }
 
-/// Proves what is claimed of a leaf, which `charts` may cover; returns how many boxes it was cut into.
+/// Proves what is claimed of a leaf, which `charts` may cover; returns how many boxes it was cut into. Once `cancelled`, nothing is proved, and
+/// the verdict is incomplete.
 pub(super) fn prove<const D: usize>(
     setting: &Setting<'_>,
     modes: &[WorkingMode],
     charts: &[&Chart],
-    y: Coordinates,
-    claims: Leaf,
+    (y, claims): (Coordinates, Leaf),
+    cancelled: &AtomicBool,
 ) -> Result<usize, Unproved> {
     let all = ((1u32 << (2 * modes.len())) - 1) as ClassSet;
     // A covered leaf takes no part in G⁺ and hides no summit: the fold has its configurations.
@@ -67,6 +69,9 @@ pub(super) fn prove<const D: usize>(
     while let Some((y, mut needs)) = open.pop() {
         if needs.none() {
             continue;
+        }
+        if cancelled.load(Ordering::Relaxed) {
+            return Ok(spent);
         }
         spent += 1;
         let doubt = settle::<D>(setting, y, modes, charts, &mut needs)?;

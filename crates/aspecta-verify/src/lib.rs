@@ -129,8 +129,8 @@ fn check_boxes<const D: usize>(
         check_leaves::<D>(certificate, &sheets, charts, control, verdict);
     }
     if verdict.faults.is_empty() && !control.is_cancelled() {
-        let links = links::check::<D>(certificate, &sheets, charts, verdict);
-        if verdict.faults.is_empty() {
+        let links = links::check::<D>(certificate, &sheets, charts, control.cancelled, verdict);
+        if verdict.faults.is_empty() && !control.is_cancelled() {
             count::check::<D>(certificate, &sheets, charts, &links, control, verdict);
         }
     }
@@ -202,7 +202,13 @@ fn check_leaves<const D: usize>(
                 (control.progress)(Progress { stage: "proving boxes", done: so_far, total });
             }
             let (claims, y) = (sheet.cells.leaves[leaf].claims, sheet.cells.of(leaf));
-            match claims::prove::<D>(&sheet.setting, &certificate.modes, later, y, claims) {
+            match claims::prove::<D>(
+                &sheet.setting,
+                &certificate.modes,
+                later,
+                (y, claims),
+                control.cancelled,
+            ) {
                 Ok(spent) => {
                     boxes.fetch_add(spent as u64, Ordering::Relaxed);
                     None

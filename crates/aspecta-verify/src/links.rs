@@ -8,6 +8,7 @@ use crate::certificate::{Certificate, Join, Seam};
 use aspecta_robot::WorkingMode;
 use aspecta_robot::chart::Chart;
 use aspecta_robot::num::Interval;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Leaves (sheet, leaf) proved to lie in one aspect of a class.
 pub(super) struct Link {
@@ -19,12 +20,14 @@ pub(super) fn check<const D: usize>(
     certificate: &Certificate,
     sheets: &[Sheet<'_>],
     charts: &[&Chart],
+    cancelled: &AtomicBool,
     verdict: &mut Verdict,
 ) -> Vec<Link> {
     let mut links = Vec::new();
     let base = charts::base_of(charts);
     let joins = certificate.joins.iter();
-    let joins = joins.map(|join| (join.class, "join", link_of_join::<D>(certificate, sheets, join)));
+    let joins =
+        joins.map(|join| (join.class, "join", link_of_join::<D>(certificate, sheets, join, cancelled)));
     let seams = certificate.seams.iter();
     let seams = seams.map(|seam| (seam.class, "seam", link_of_seam::<D>(sheets, base, seam)));
     let mut number = [0, 0];
@@ -61,6 +64,7 @@ fn link_of_join<const D: usize>(
     certificate: &Certificate,
     sheets: &[Sheet<'_>],
     join: &Join,
+    cancelled: &AtomicBool,
 ) -> Result<Vec<(usize, usize)>, String> {
     let setting = &sheets[join.sheet].setting;
     let window = &setting.window;
@@ -82,7 +86,7 @@ fn link_of_join<const D: usize>(
     }
     let mode = certificate.modes[join.class / 2];
     for (k, ends) in join.path.windows(2).enumerate() {
-        if !is_inside_all_along::<D>(setting, mode, sign_of(join.class), &ends[0], &ends[1]) {
+        if !is_inside_all_along::<D>(setting, mode, sign_of(join.class), [&ends[0], &ends[1]], cancelled) {
             return Err(format!("the segment from pose {k} is not proved to lie inside the class"));
         }
     }
@@ -96,11 +100,14 @@ fn is_inside_all_along<const D: usize>(
     setting: &Setting<'_>,
     mode: WorkingMode,
     sign: f64,
-    start: &[f64],
-    end: &[f64],
+    [start, end]: [&[f64]; 2],
+    cancelled: &AtomicBool,
 ) -> bool {
     let mut open = vec![(0.0, 1.0)];
     for _ in 0..EFFORT {
+        if cancelled.load(Ordering::Relaxed) {
+            return false;
+        }
         let Some((from, to)) = open.pop() else { return true };
         let (start, end) = (point(start), point(end));
         let y = std::array::from_fn(|k| {

@@ -3,6 +3,7 @@
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use tempfile::{Builder, NamedTempFile};
 
 /// Creates a directory if need be and makes sure that files can be written into it: before long work, not
 /// after it.
@@ -11,25 +12,37 @@ use std::path::{Path, PathBuf};
 /// Those of the file system.
 pub fn writable(dir: &Path) -> io::Result<()> {
     fs::create_dir_all(dir)?;
-    let probe = dir.join(".aspecta-writable");
-    fs::write(&probe, "").and_then(|()| fs::remove_file(&probe))
+    NamedTempFile::new_in(dir)?.close()
 }
 
-/// Writes `content` into `dir` under a temporary name, renames it to `name`, and returns the path.
+/// Writes `content` into `dir` under a temporary name that nobody can guess, renames it to `name`, and returns the path. Links are followed, and what is
+/// there but no regular file (a device, a pipe) is written into as it is.
 ///
 /// # Errors
 /// Those of the file system; then no file is left behind.
 pub fn put(dir: &Path, name: &str, content: impl AsRef<[u8]>) -> io::Result<PathBuf> {
-    let (path, draft) = (dir.join(name), dir.join(format!(".{name}.{}.part", std::process::id())));
-    let write = || -> io::Result<()> {
-        let mut file = fs::File::create(&draft)?;
-        file.write_all(content.as_ref())?;
-        file.sync_all()?;
-        fs::rename(&draft, &path)
-    };
-    write().inspect_err(|_| {
-        // The first error is the one to report.
-        let _ = fs::remove_file(&draft);
-    })?;
+    let path = dir.join(name);
+    // What a link leads to, if that is there.
+    let place = fs::canonicalize(&path).unwrap_or_else(|_| path.clone());
+    match fs::metadata(&place) {
+        Ok(found) if !found.is_file() => {
+            fs::OpenOptions::new().write(true).open(&place)?.write_all(content.as_ref())?
+        }
+        _ => replace(&place, content.as_ref())?,
+    }
     Ok(path)
+}
+
+/// Puts a regular file in its place at once.
+fn replace(path: &Path, content: &[u8]) -> io::Result<()> {
+    let mut draft = Builder::new();
+    // As other programs make files: for all whom the user's mask lets.
+    #[cfg(unix)]
+    draft.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let mut draft =
+        draft.prefix(".aspecta-").suffix(".part").tempfile_in(path.parent().unwrap_or(Path::new(".")))?;
+    draft.write_all(content)?;
+    draft.as_file().sync_all()?;
+    draft.persist(path)?;
+    Ok(())
 }

@@ -3,6 +3,7 @@
 use crate::failure::Failure;
 use aspecta::motion::explore::Effort;
 use aspecta::paving::{Budget, MAX_DEPTH};
+use std::time::Duration;
 
 /// Returns the budget used if none is given: fine enough to work with aspects in so many free coordinates.
 pub fn coarse(free: usize) -> Budget {
@@ -26,6 +27,17 @@ pub fn effort(budget: Option<Budget>, samples: u32) -> Result<Effort, Failure> {
         ));
     }
     Ok(Effort { samples: samples as usize, seconds: budget.seconds })
+}
+
+/// Reads a time: `30s`, `5min`, `1h`.
+///
+/// # Errors
+/// A sentence that says what would do.
+pub fn parse_time(text: &str) -> Result<Duration, String> {
+    let Budget { seconds: Some(seconds), boxes: None, depth: None, resolution: None } = parse(text)? else {
+        return Err("give a time, such as 30s or 5min".into());
+    };
+    Ok(Duration::from_secs_f64(seconds))
 }
 
 /// Reads a comma-separated budget: `30s`, `5min`, `1h`, `2e6boxes`, `depth=9`, `res=0.1`.

@@ -1,18 +1,21 @@
 //! `aspecta verify`: whether a certificate proves what it claims.
 
+use crate::args::budget;
 use crate::args::format::JsonArg;
 use crate::args::help::help;
 use crate::args::threads::Threads;
 use crate::failure::{Answer, Failure};
 use crate::input;
 use crate::output::{self, note};
-use crate::work::watch::watched;
+use crate::show::facts;
+use crate::work::watch::{watched, within};
 use aspecta::certificate::{Certificate, CertificateError};
-use aspecta::robot::Robot;
+use aspecta::robot::{Robot, catalogue};
 use aspecta::verify::verify;
 use clap::Args;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// Arguments of `verify`.
 #[derive(Args)]
@@ -23,6 +26,9 @@ pub struct Verify {
     /// The robot that it should be about: a name from `aspecta robots`, or the path of a robot file
     #[arg(long, value_name = "ROBOT")]
     robot: Option<String>,
+    /// When to give up: a time, such as 60s or 5min
+    #[arg(long, default_value = "1h", value_parser = budget::parse_time)]
+    budget: Duration,
     #[command(flatten)]
     shown: JsonArg,
     #[command(flatten)]
@@ -43,14 +49,21 @@ impl Verify {
                 return Ok(Answer::No);
             }
         }
-        let verdict = watched(self.threads, |control| verify(&certificate, control))?;
+        let (verdict, in_time) = watched(self.threads, |control| {
+            within(self.budget, control, |control| verify(&certificate, control))
+        })?;
         if self.shown.json {
             output::json(out, &verdict)?;
         } else {
+            facts::print(out, &certificate.robot)?;
+            if is_namesake(&certificate.robot) {
+                writeln!(out, "  this is not the `{}` of `aspecta robots`", certificate.robot.name)?;
+            }
             write!(out, "{verdict}")?;
         }
         if !verdict.complete {
-            note("cancelled: nothing is verified");
+            let why = if in_time { "cancelled" } else { "the --budget has run out" };
+            note(&format!("{why}: nothing is verified"));
         }
         Ok(Answer::from(verdict.is_verified()))
     }
@@ -74,6 +87,11 @@ fn certificate(path: &Path) -> Result<Certificate, Failure> {
 /// Whether a file that is no JSON is a robot file, by its name if it has mistakes.
 fn is_robot_file(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension == "toml") || Robot::load(path).is_ok()
+}
+
+/// Whether a robot of the catalogue has this one's name and is another.
+fn is_namesake(robot: &Robot) -> bool {
+    catalogue::find(&robot.name).is_some_and(|known| !is_same(&known, robot))
 }
 
 /// Whether two robots are the same for the arithmetic.

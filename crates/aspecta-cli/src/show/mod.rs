@@ -1,6 +1,7 @@
 //! Results for people, scripts and spreadsheets: summaries, tables and JSON of what several commands find.
 
 pub mod doubts;
+pub mod facts;
 pub mod groups;
 pub mod joined;
 pub mod motion;

@@ -4,9 +4,11 @@ use crate::args::threads::Threads;
 use crate::failure::Failure;
 use crate::output::note;
 use aspecta::paving::{Control, Progress};
+use aspecta::robot::work::Stopwatch;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
 use std::time::Duration;
 
 /// Set by Ctrl-C, once [`interrupts`] is called.
@@ -26,6 +28,38 @@ pub fn watched<T>(threads: Threads, work: impl FnOnce(&Control<'_>) -> T) -> Res
     let result = work(&Control { cancelled: &CANCELLED, progress: &show });
     bar.finish_and_clear();
     Ok(result)
+}
+
+/// Says so when it is dropped.
+struct Done<'a>(&'a AtomicBool);
+
+impl Drop for Done<'_> {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+}
+
+/// How often a deadline is looked at.
+const TICK: Duration = Duration::from_millis(20);
+
+/// Does work that is cancelled after a time; returns whether it ended before.
+pub fn within<T>(time: Duration, control: &Control<'_>, work: impl FnOnce(&Control<'_>) -> T) -> (T, bool) {
+    let (cancelled, done, late) = (AtomicBool::new(false), AtomicBool::new(false), AtomicBool::new(false));
+    let begin = Stopwatch::start();
+    thread::scope(|scope| {
+        scope.spawn(|| {
+            while !done.load(Ordering::Relaxed) {
+                let is_late = begin.seconds() >= time.as_secs_f64();
+                late.fetch_or(is_late, Ordering::Relaxed);
+                cancelled.fetch_or(is_late || control.is_cancelled(), Ordering::Relaxed);
+                thread::park_timeout(TICK);
+            }
+        });
+        // Also if the work panics: the watch is waited for.
+        let _done = Done(&done);
+        let result = work(&Control { cancelled: &cancelled, progress: control.progress });
+        (result, !late.load(Ordering::Relaxed))
+    })
 }
 
 /// The first Ctrl-C asks the work to stop and keep its result, the second ends the program.

@@ -228,3 +228,81 @@ fn signs_of_elbows_are_what_the_documentation_says() {
     }
     assert!(kept > 0, "{found}");
 }
+
+/// Another robot under the name of one of the catalogue.
+#[test]
+fn verify_says_what_robot_the_proof_is_about() {
+    let directory = tempfile::tempdir().unwrap();
+    let (robot, proof) = (directory.path().join("mine.toml"), directory.path().join("proof.json"));
+    let text = stdout("robots show five-bar");
+    std::fs::write(&robot, format!("{text}\n[window]\nx = [2, 6]\n")).unwrap();
+    let analysed = aspecta("analyze --mode ++ --certificate").arg(&proof).arg(&robot).output().unwrap();
+    assert_eq!(analysed.status.code(), Some(0));
+    let run = aspecta("verify").arg(&proof).output().unwrap();
+    let text = String::from_utf8(run.stdout).unwrap();
+    assert!(
+        text.contains("leg 1: revolute, A (0.000000, 0.000000)") && text.contains("crank 8.000000"),
+        "{text}"
+    );
+    assert!(text.contains("window: x 2.000000 to 6.000000"), "{text}");
+    assert!(text.contains("this is not the `five-bar` of `aspecta robots`"), "{text}");
+}
+
+#[test]
+fn verify_keeps_its_budget() {
+    let directory = tempfile::tempdir().unwrap();
+    let proof = directory.path().join("proof.json");
+    assert!(aspecta("analyze five-bar --certificate").arg(&proof).output().unwrap().status.success());
+    let run = aspecta("verify --budget 0.01s").arg(&proof).output().unwrap();
+    let text = String::from_utf8(run.stderr).unwrap();
+    assert_eq!(run.status.code(), Some(1), "{text}");
+    assert!(text.contains("the --budget has run out: nothing is verified"), "{text}");
+    for bad in ["depth=3", "soon"] {
+        let run = aspecta("verify --budget").arg(bad).arg(&proof).output().unwrap();
+        assert_eq!(run.status.code(), Some(2));
+    }
+}
+
+/// Its grid has 2³¹ cells along an axis.
+#[test]
+fn a_map_that_would_fill_the_memory_is_refused() {
+    let run = output(&format!(
+        "locate {}/tests/cases/grid_count_2147483648.gz --pose 4,7",
+        env!("CARGO_MANIFEST_DIR")
+    ));
+    let text = String::from_utf8(run.stderr).unwrap();
+    assert_eq!(run.status.code(), Some(2), "{text}");
+    assert!(text.contains("a grid of more than 134 million nodes"), "{text}");
+}
+
+/// Links are followed, and what is no regular file is written into.
+#[cfg(unix)]
+#[test]
+fn outputs_replace_nothing_but_files() {
+    let directory = tempfile::tempdir().unwrap();
+    let [link, real] = ["link.json", "real.json"].map(|name| directory.path().join(name));
+    std::fs::write(&real, "before").unwrap();
+    std::os::unix::fs::symlink(&real, &link).unwrap();
+    let write = |path: &std::path::Path| {
+        let run =
+            aspecta("analyze five-bar --mode ++ --budget depth=4 --certificate").arg(path).output().unwrap();
+        assert!(run.status.code() < Some(2), "{}", String::from_utf8_lossy(&run.stderr));
+    };
+    write(&link);
+    assert!(std::fs::symlink_metadata(&link).unwrap().is_symlink());
+    assert!(std::fs::read_to_string(&real).unwrap().starts_with('{'));
+    let device = std::path::Path::new("/dev/null");
+    write(device);
+    assert!(!std::fs::metadata(device).unwrap().is_file());
+    // A link that lies in wait where a directory is probed.
+    let victim = directory.path().join("victim");
+    std::fs::write(&victim, "kept").unwrap();
+    std::os::unix::fs::symlink(&victim, directory.path().join(".aspecta-writable")).unwrap();
+    let run =
+        aspecta("analyze five-bar --mode ++ --budget depth=4 --out").arg(directory.path()).output().unwrap();
+    assert!(run.status.code() < Some(2));
+    assert_eq!(std::fs::read_to_string(&victim).unwrap(), "kept");
+    let left =
+        std::fs::read_dir(directory.path()).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap());
+    assert!(!left.into_iter().any(|name| name.ends_with(".part")));
+}

@@ -1,6 +1,7 @@
 //! Vectors and numbers as people read them: what the texts of all results are made of.
 
 mod labels;
+mod limits;
 mod numbers;
 
 pub use labels::{Labels, det_a_unit};

@@ -93,7 +93,7 @@ fn bends_are_joined_with_the_base() {
         change(&mut certificate);
         let (sheets, mut verdict) = (sheets(&certificate), Verdict::new(&certificate));
         let (charts, control) = (charts::of(&certificate), Control::unwatched());
-        let links = links::check::<3>(&certificate, &sheets, &charts, &mut verdict);
+        let links = links::check::<3>(&certificate, &sheets, &charts, control.cancelled, &mut verdict);
         count::check::<3>(&certificate, &sheets, &charts, &links, &control, &mut verdict);
         verdict
     };

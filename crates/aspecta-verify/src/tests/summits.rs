@@ -33,7 +33,7 @@ fn is_summitless(window: &str, bounds: [(f64, f64); 3]) -> bool {
     let setting = Setting::new(&robot, &Chart::Pose, window, &scale);
     let y = std::array::from_fn(|k| bounds.get(k).map_or(Interval::point(0.0), |b| Interval::new(b.0, b.1)));
     let claim = Leaf { undecided: 3, summitless: 1, ..Leaf::default() };
-    claims::prove::<3>(&setting, &modes, &[], y, claim).is_ok()
+    claims::prove::<3>(&setting, &modes, &[], (y, claim), &AtomicBool::new(false)).is_ok()
 }
 
 /// h_1 rises as the yaw does, and the distance to the wall falls: both are least together at a pass, at a

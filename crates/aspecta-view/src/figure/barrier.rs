@@ -28,9 +28,14 @@ pub struct Barriers {
     pub det: f64,
     /// The reach H_j of each leg (none for struts), then the margin of each joint limit.
     pub margins: Vec<(Kind, f64)>,
-    /// q = g_s(X), also on the boundary; angles in (−π, π].
+    /// q = g_s(X), also on the boundary; angles within the ranges of their joints.
     pub q: Vec<f64>,
+    /// A leg (from 0) whose C is so near to the axis of its crank that it is folded, and its q free, as far as a picture shows.
+    pub folded: Option<usize>,
 }
+
+/// The distance from C to the axis of a crank, by the length of the crank, at which the leg counts as folded.
+const FOLDED: f64 = 1e-4;
 
 impl Barriers {
     /// The barriers at `pose`, which must have the robot's number of coordinates.
@@ -49,7 +54,7 @@ fn barriers<const D: usize, const N: usize>(robot: &Robot, mode: WorkingMode, po
     let legs = closures::<f64, D, N>(robot, &placement);
     let heights: [[f64; 2]; N] = std::array::from_fn(|j| legs[j].heights());
     let mut rows = [[0.0; N]; N];
-    let (mut margins, mut q) = (Vec::new(), Vec::new());
+    let (mut margins, mut q, mut folded) = (Vec::new(), Vec::new(), None);
     for (j, (leg, at)) in robot.legs.iter().zip(&legs).enumerate() {
         let closure = &at.closure;
         let sh = heights[j][usize::from(mode.sign(j) < 0)];
@@ -58,9 +63,12 @@ fn barriers<const D: usize, const N: usize>(robot: &Robot, mode: WorkingMode, po
         if leg.actuator.postures() == 2 {
             margins.push((Kind::Serial, closure.reach));
         }
+        if leg.actuator.usual_weight().is_some_and(|usual| closure.weight < usual * FOLDED.powi(2)) {
+            folded = Some(j);
+        }
         q.push(leg.joint_value(leg.actuator.drive(&at.span, closure, sh)));
     }
     let at = Configuration { robot, placement: &placement, legs: &legs, heights: &heights, mode };
     margins.extend(at.limits().map(|(_, margin)| (Kind::Limit, margin)));
-    Barriers { det: determinant(&rows), margins, q }
+    Barriers { det: determinant(&rows), margins, q, folded }
 }

@@ -4,6 +4,7 @@ use super::barrier::{Barriers, Kind};
 use super::level::{Grid, contours, project};
 use aspecta::kinematics::WorkingMode;
 use aspecta::robot::Robot;
+use std::f64::consts::PI;
 
 /// A plane of poses: all coordinates fixed but two.
 #[derive(Clone, Debug)]
@@ -134,43 +135,69 @@ impl Sheet<'_> {
     }
 
     /// The image g_s(curve) in Q, refined until no coordinate q_k steps by more than `step[k]`; angles are unwound, so
-    /// that each line is continuous. Where a step stays wide however near its ends are in W, a leg is folded between them (C on the
-    /// axis of its crank): its joint is free there, and the line across is the image of that serial singularity.
+    /// that each line is continuous. Where a leg is folded (C on the axis of its crank) its joint is free, and all its values are the image of
+    /// that serial singularity, whatever curve leads to it: lines end there, and one goes through the joint's whole range.
     pub fn images(&self, curve: &Curve, step: &[f64]) -> Vec<Image> {
         let Some(&first) = curve.points.first() else { return Vec::new() };
-        let mut images = vec![(curve.kind, vec![self.barriers(first).q])];
-        for pair in curve.points.windows(2) {
-            self.extend_images(curve, (pair[0], pair[1]), step, HALVINGS, &mut images);
+        let first = (first, self.barriers(first));
+        let mut images =
+            Images { curve, step, found: vec![(curve.kind, vec![first.1.q.clone()])], last: first };
+        for &point in &curve.points[1..] {
+            self.extend_images(&mut images, point, HALVINGS);
         }
-        images.retain(|(_, line)| line.len() > 1);
-        images
+        images.found.retain(|(_, line)| line.len() > 1);
+        images.found
     }
 
-    fn extend_images(
-        &self,
-        curve: &Curve,
-        (a, b): ([f64; 2], [f64; 2]),
-        step: &[f64],
-        depth: u32,
-        images: &mut Vec<Image>,
-    ) {
-        let Some(last) = images.last().and_then(|(_, line)| line.last()).cloned() else { return };
-        let q = unwind(self.robot, self.barriers(b).q, &last);
-        let far = (0..q.len()).any(|k| (q[k] - last[k]).abs() > step[k]);
+    fn extend_images(&self, images: &mut Images<'_>, b: [f64; 2], depth: u32) {
+        let Images { curve, step, last: (a, from), .. } = images;
+        let (curve, a) = (*curve, *a);
+        let mut to = self.barriers(b);
+        to.q = unwind(self.robot, to.q, &from.q);
+        let step_of = |k: usize| (to.q[k] - from.q[k]).abs() / step[k];
+        let widest = (0..to.q.len()).max_by(|&i, &j| step_of(i).total_cmp(&step_of(j))).unwrap_or(0);
+        let (far, free) = (step_of(widest) > 1.0, from.folded.and(to.folded));
         if far
+            && free.is_none()
             && depth > 0
             && let Some(middle) = project(a, b, 0.5, &|p| self.value(curve.which, p))
         {
-            self.extend_images(curve, (a, middle), step, depth - 1, images);
-            self.extend_images(curve, (middle, b), step, depth - 1, images);
-            return;
+            self.extend_images(images, middle, depth - 1);
+            return self.extend_images(images, b, depth - 1);
         }
-        if far && depth == 0 {
-            images.extend([(Kind::Serial, vec![last, q.clone()]), (curve.kind, vec![q])]);
-        } else if let Some((_, line)) = images.last_mut() {
-            line.push(q);
+        if free.is_some() || (far && depth == 0) {
+            let fold = self.fold(&to.q, free.unwrap_or(widest));
+            let found = &mut images.found;
+            let is_near =
+                |line: &[Vec<f64>]| (0..to.q.len()).all(|k| (line[0][k] - fold[0][k]).abs() < step[k]);
+            if !found.iter().any(|(kind, line)| *kind == Kind::Serial && line.len() == 2 && is_near(line)) {
+                found.push((Kind::Serial, fold.to_vec()));
+            }
+            found.push((curve.kind, vec![to.q.clone()]));
+        } else if let Some((_, line)) = images.found.last_mut() {
+            line.push(to.q.clone());
         }
+        images.last = (b, to);
     }
+
+    /// The whole range of the joint of a leg (from 0) that is folded at q.
+    fn fold(&self, q: &[f64], leg: usize) -> [Vec<f64>; 2] {
+        let (low, high) = self.robot.legs[leg].drive_range().unwrap_or((-PI, PI));
+        [low, high].map(|end| {
+            let mut q = q.to_vec();
+            q[leg] = end;
+            q
+        })
+    }
+}
+
+/// The images of a curve, as they grow.
+struct Images<'a> {
+    curve: &'a Curve,
+    step: &'a [f64],
+    found: Vec<Image>,
+    /// The point of the plane that they have come to, and what is there.
+    last: ([f64; 2], Barriers),
 }
 
 /// q with whole turns added to its angles so that each is within half a turn of `near`.

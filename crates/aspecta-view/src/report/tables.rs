@@ -31,12 +31,17 @@ pub fn legs(analysis: &Analysis) -> Markup {
                 td { (point(&leg.anchor.map(|x| x.mid()), robot)) }
                 td { (point(&leg.attachment.map(|x| x.mid()), robot)) }
                 td { (lengths(leg)) }
-                td { @if leg.limits.is_empty() { "none" } @else { (leg.limits.len()) } }
+                td { @if leg.limits.is_empty() { "none" } @else { (limits(leg, robot)) } }
                 td { (report.postures) }
                 td.reason { @if report.cuspidal { "yes: " } @else { "no: " } (report.reason) }
             } } }
         }
     }
+}
+
+/// The limits of a leg, in words.
+fn limits(leg: &Leg, robot: &Robot) -> String {
+    leg.limits.iter().map(|limit| limit.in_words(&robot.length_unit)).collect::<Vec<_>>().join("; ")
 }
 
 fn lengths(leg: &Leg) -> String {

@@ -184,7 +184,12 @@ fn runs(region: &[u32]) -> Vec<(i64, usize)> {
     region.chunk_by(|a, b| a == b).map(|run| (name(run[0]), run.len())).collect()
 }
 
+/// Nodes of a grid that a map may have: half a gigabyte of regions.
+const MOST_NODES: usize = 1 << 27;
+
 fn region(grid: &Grid, runs: &[(i64, usize)]) -> Result<Vec<u32>, Unsound> {
+    let nodes = grid.count.iter().try_fold(1, |nodes: usize, &count| nodes.checked_mul(count));
+    holds(nodes.is_some_and(|nodes| nodes <= MOST_NODES), "a grid of more than 134 million nodes")?;
     let found = runs.iter().fold(0usize, |sum, run| sum.saturating_add(run.1));
     wanted("nodes of a grid", found, grid.len())?;
     let mut region = Vec::with_capacity(found);
