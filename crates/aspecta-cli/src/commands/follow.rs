@@ -5,9 +5,10 @@ use crate::args::help::help;
 use crate::args::robot::RobotArg;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns, Row, Rows};
-use crate::output::{FORMAT_VERSION, Format, Labels, exact, json_line};
+use crate::output::{FORMAT_VERSION, Format, Labels, exact, json_line, note};
 use aspecta::kinematics::WorkingMode;
 use aspecta::motion::follow::{Follower, InverseFollower, JointStep, Refusal, Step};
+use aspecta::num::turned_to;
 use aspecta::robot::Robot;
 use aspecta_view::words::count;
 use clap::Args;
@@ -34,6 +35,10 @@ pub struct Follow {
     /// A CSV file, one joint vector (or pose) a line; `-` reads stdin
     #[arg(long, value_name = "CSV", default_value = "-")]
     file: String,
+    /// Turn the angles of each line by full turns to be next to those of the line before: after 179 degrees -179 goes
+    /// on by 2 instead of back by 358
+    #[arg(long)]
+    unwrap: bool,
     #[command(flatten)]
     shown: ShownArgs,
 }
@@ -105,9 +110,11 @@ impl Follow {
         let mut rows = Rows::open(&self.file, &layouts, self.shown.deg)?.unbounded();
         let mut printer = Printer::new(&robot, self.inverse, self.shown.format(), self.shown.deg);
         let mut follower: Option<Any> = None;
-        let (mut steps, mut refused) = (0, 0);
+        let mut turns = Turns { unwrap: self.unwrap, warned: false, last: Vec::new() };
+        let (mut steps, mut refused, mut doubtful) = (0, 0, 0);
         while let Some(row) = rows.next() {
-            let row = row?;
+            let mut row = row?;
+            turns.next(&mut row, &layouts[0]);
             let follower = match &mut follower {
                 Some(follower) => follower,
                 None => {
@@ -123,10 +130,11 @@ impl Follow {
             };
             steps += 1;
             refused += usize::from(found.is_none());
+            doubtful += usize::from(matches!(outcome, Outcome::Certified { regular: Some(false), .. }));
             printer.print(out, &row, found.as_deref(), outcome)?;
             out.flush()?;
         }
-        printer.ending(out, steps, refused)?;
+        printer.ending(out, steps, refused, doubtful)?;
         Ok(Answer::from(refused == 0))
     }
 }
@@ -264,11 +272,53 @@ impl Printer {
         }
     }
 
-    fn ending(&self, out: &mut dyn Write, steps: usize, refused: usize) -> Result<(), Failure> {
+    fn ending(
+        &self,
+        out: &mut dyn Write,
+        steps: usize,
+        refused: usize,
+        doubtful: usize,
+    ) -> Result<(), Failure> {
         if self.format == Format::Table {
-            let lines = count(steps, "line", "lines");
-            writeln!(out, "{lines}: {} certified, {refused} refused", steps - refused)?;
+            let (lines, certified) = (count(steps, "line", "lines"), steps - refused - doubtful);
+            let open = if doubtful == 0 {
+                String::new()
+            } else {
+                format!(", {doubtful} in the working mode, but perhaps through det A = 0")
+            };
+            writeln!(out, "{lines}: {certified} certified{open}, {refused} refused")?;
         }
         Ok(())
+    }
+}
+
+/// Angles from one line to the next.
+struct Turns {
+    unwrap: bool,
+    warned: bool,
+    last: Vec<f64>,
+}
+
+impl Turns {
+    /// Turns the angles of a row to be next to those of the last one, or warns if one jumps by more than half a turn.
+    fn next(&mut self, row: &mut Row, columns: &Columns) {
+        for (k, last) in self.last.iter().enumerate().filter(|(k, _)| columns.angles[*k]) {
+            let near = turned_to(row.values[k], *last);
+            if self.unwrap {
+                row.values[k] = near;
+            } else if near != row.values[k] && !self.warned {
+                self.warned = true;
+                note(&format!(
+                    "warning: line {}: {} jumps by {:.1} degrees; to go on by {:.1} instead, give --unwrap",
+                    row.line,
+                    columns.names[k],
+                    (row.values[k] - last).to_degrees(),
+                    (near - last).to_degrees()
+                ));
+            }
+        }
+        if row.values.iter().all(|x| x.is_finite()) {
+            self.last.clone_from(&row.values);
+        }
     }
 }

@@ -306,3 +306,58 @@ fn outputs_replace_nothing_but_files() {
         std::fs::read_dir(directory.path()).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap());
     assert!(!left.into_iter().any(|name| name.ends_with(".part")));
 }
+
+/// Files that the README names are there, and its commands take them.
+#[test]
+fn examples_of_the_readme_run() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let readme = std::fs::read_to_string(root.join("README.md")).unwrap();
+    let named: Vec<&str> = readme
+        .split(|c: char| c.is_whitespace() || "`()".contains(c))
+        .filter(|word| word.starts_with("examples/"))
+        .collect();
+    assert!(named.len() >= 6 && named.iter().all(|name| root.join(name).is_file()), "{named:?}");
+    for command in [
+        "check-path 3-rrr examples/3-rrr-path.csv --mode +++",
+        "check-path 3-rrr examples/3-rrr-joints.csv --start -15.468,0.781,0.073",
+        "time 3-rrr examples/3-rrr-path.csv --mode +++ --speed 2 --acceleration 10",
+        "traverse five-bar --poses examples/five-bar-points.csv",
+        "ik five-bar --file examples/five-bar-poses.csv",
+        "follow delta --pose 0,0,-900 --file examples/delta-joints.csv",
+    ] {
+        let run = aspecta(command).current_dir(&root).output().unwrap();
+        assert_eq!(run.status.code(), Some(0), "{command}: {}", String::from_utf8_lossy(&run.stderr));
+    }
+}
+
+/// A wrist that turns on past 180° in a file of angles up to 180°.
+#[test]
+fn a_stream_of_angles_can_be_unwrapped() {
+    let poses = "roll,pitch,yaw\n10,-5,170\n10,-5,175\n10,-5,179\n10,-5,-179\n10,-5,-175\n";
+    let modes = json("ik spherical-3-rrr --pose 10,-5,170 --deg --json");
+    let mode = modes["solutions"][0]["mode"].as_str().unwrap().to_owned();
+    let run = |option: &str| {
+        let follow = format!("follow spherical-3-rrr --inverse --mode={mode} --deg {option}");
+        let run = aspecta(&follow).write_stdin(poses).output().unwrap();
+        (String::from_utf8(run.stdout).unwrap(), String::from_utf8(run.stderr).unwrap())
+    };
+    let (text, messages) = run("");
+    assert!(
+        messages.contains("line 5: yaw jumps by -358.0 degrees; to go on by 2.0 instead, give --unwrap"),
+        "{messages}"
+    );
+    assert!(!text.contains("5 certified") || !text.contains("may have vanished"), "{text}");
+    let (text, messages) = run("--unwrap");
+    assert_eq!(messages, "");
+    assert!(text.ends_with("5 lines: 5 certified, 0 refused\n"), "{text}");
+    let (rows, _) = run("--unwrap --csv");
+    let mut csv = csv::Reader::from_reader(rows.as_bytes());
+    let all: Vec<Vec<f64>> = csv
+        .records()
+        .map(|row| (1..7).map(|k| row.as_ref().unwrap()[k].parse().unwrap()).collect())
+        .collect();
+    assert!(
+        all.windows(2).all(|pair| pair[0].iter().zip(&pair[1]).all(|(a, b)| (a - b).abs() < 0.3)),
+        "{rows}"
+    );
+}
