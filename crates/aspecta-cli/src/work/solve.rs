@@ -17,14 +17,21 @@ pub struct Found {
     pub complete: Option<bool>,
 }
 
-/// Returns all inverse solutions at a pose, given alone or in a line of a file: one bad row does not cost the
-/// others.
+/// Returns all inverse solutions at a pose, given alone or in a line of a file; says why if there are none, which is an answer.
 pub fn inverse(robot: &Robot, pose: &[f64], line: Option<u64>) -> Result<Vec<Solution>, Failure> {
     let solutions = robot.inverse(pose)?;
     if solutions.is_empty() {
-        let why = out_of_reach(robot, pose)?;
-        let Some(line) = line else { return Err(Failure::Input(format!("the pose is {why}"))) };
-        note(&format!("line {line}: {why}"));
+        let place = line.map_or("the pose is ".to_owned(), |line| format!("line {line}: "));
+        note(&format!("{place}{}", out_of_reach(robot, pose)?));
+    }
+    Ok(solutions)
+}
+
+/// The inverse solutions at a pose that must be within reach.
+pub fn within_reach(robot: &Robot, pose: &[f64]) -> Result<Vec<Solution>, Failure> {
+    let solutions = robot.inverse(pose)?;
+    if solutions.is_empty() {
+        return Err(Failure::Input(format!("the pose is {}", out_of_reach(robot, pose)?)));
     }
     Ok(solutions)
 }

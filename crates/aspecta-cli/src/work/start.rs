@@ -13,7 +13,7 @@ const ENOUGH: usize = 200;
 /// The configuration at a pose within joint limits and farthest from singularities, in `mode` if one is
 /// given.
 pub fn at(robot: &Robot, pose: &[f64], mode: Option<WorkingMode>) -> Result<Solution, Failure> {
-    let solutions = solve::inverse(robot, pose, None)?;
+    let solutions = solve::within_reach(robot, pose)?;
     let best = best(robot, solutions, mode)?;
     let modes = mode.map_or("every working mode".into(), |m| format!("working mode {m}"));
     let refused = || Failure::Input(format!("the pose is beyond the robot's joint limits in {modes}"));

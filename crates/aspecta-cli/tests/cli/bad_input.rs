@@ -74,10 +74,21 @@ fn working_modes_the_robot_does_not_have() {
 /// Which leg, and by how much: |A1C1| = 20, 7 beyond 8 + 5; |A2C1| = 29, 16 beyond.
 #[test]
 fn unreachable_poses() {
-    refused("ik five-bar --pose -20,0", &["out of reach: leg 1 by 7.000000", "leg 2 by 16.000000"]);
-    refused("state five-bar --pose -20,0", &["out of reach: leg 1 by 7.000000"]);
-    // |A1C1| = 1 is 2 short of 8 − 5; leg 2 reaches.
-    refused("ik five-bar --pose 1,0", &["out of reach: leg 1 by 2.000000"]);
+    for (arguments, words) in [
+        ("ik five-bar --pose -20,0", &["out of reach: leg 1 by 7.000000", "leg 2 by 16.000000"][..]),
+        ("state five-bar --pose -20,0", &["out of reach: leg 1 by 7.000000"]),
+        // |A1C1| = 1 is 2 short of 8 − 5; leg 2 reaches.
+        ("ik five-bar --pose 1,0", &["out of reach: leg 1 by 2.000000"]),
+    ] {
+        // An answer, and so one in JSON too.
+        let run = output(&format!("{arguments} --json"));
+        let message = String::from_utf8(run.stderr).unwrap();
+        assert_eq!(run.status.code(), Some(1), "{arguments}: {message}");
+        assert!(words.iter().all(|part| message.contains(part)), "{message}");
+        let answer: serde_json::Value = serde_json::from_slice(&run.stdout).unwrap();
+        let found = answer.get("solutions").or(answer.get("states")).unwrap_or_else(|| panic!("{answer}"));
+        assert_eq!(found.as_array().unwrap().len(), 0, "{answer}");
+    }
 }
 
 #[test]

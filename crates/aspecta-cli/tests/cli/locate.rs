@@ -56,7 +56,7 @@ fn a_joint_vector_is_found_in_degrees_and_in_files() {
 #[test]
 fn what_cannot_be_located_is_explained() {
     let (status, _, messages) = locate("--pose 30,6");
-    assert!(status == Some(2) && messages.contains("out of reach: leg 1"), "{messages}");
+    assert!(status == Some(1) && messages.contains("out of reach: leg 1"), "{messages}");
     let (status, _, messages) = locate("--pose 3,6 --cells 30");
     assert!(status == Some(2) && messages.contains("--cells"), "{messages}");
     let (status, _, messages) = locate("--pose 3");
