@@ -12,28 +12,41 @@ pub fn json_of_each<T: Serialize>(
     robot: &Robot,
     mut answers: Vec<(Option<u64>, T)>,
 ) -> Result<(), Failure> {
-    let (format_version, robot) = (FORMAT_VERSION, robot.name.as_str());
+    let about = About {
+        format_version: FORMAT_VERSION,
+        robot: &robot.name,
+        length_unit: &robot.length_unit,
+        angle_unit: "rad",
+    };
     if matches!(answers[..], [(None, _)])
         && let Some((_, answer)) = answers.pop()
     {
-        return json(out, &One { format_version, robot, answer });
+        return json(out, &One { about, answer });
     }
     let results = answers.into_iter().map(|(line, answer)| InLine { line: line.unwrap_or_default(), answer });
-    json(out, &Many { format_version, robot, results: results.collect() })
+    json(out, &Many { about, results: results.collect() })
+}
+
+#[derive(Serialize)]
+struct About<'a> {
+    format_version: u32,
+    robot: &'a str,
+    length_unit: &'a str,
+    angle_unit: &'static str,
 }
 
 #[derive(Serialize)]
 struct One<'a, T> {
-    format_version: u32,
-    robot: &'a str,
+    #[serde(flatten)]
+    about: About<'a>,
     #[serde(flatten)]
     answer: T,
 }
 
 #[derive(Serialize)]
 struct Many<'a, T> {
-    format_version: u32,
-    robot: &'a str,
+    #[serde(flatten)]
+    about: About<'a>,
     results: Vec<InLine<T>>,
 }
 

@@ -29,6 +29,10 @@ fn five_bar_lengths(pose: &[f64], q: &[f64]) -> [f64; 2] {
 fn ik_of_the_five_bar() {
     let document = json("ik five-bar --pose 4,7 --json");
     assert_eq!(document["robot"], "five-bar");
+    assert_eq!(
+        (&document["length_unit"], &document["angle_unit"]),
+        (&Value::from("unit"), &Value::from("rad"))
+    );
     let found = solutions(&document);
     let modes: Vec<_> = found.iter().map(|s| s["mode"].as_str().unwrap()).collect();
     assert_eq!(modes, ["++", "+-", "--", "-+"]);
