@@ -37,7 +37,8 @@ pub fn parse_time(text: &str) -> Result<Duration, String> {
     let Budget { seconds: Some(seconds), boxes: None, depth: None, resolution: None } = parse(text)? else {
         return Err("give a time, such as 30s or 5min".into());
     };
-    Ok(Duration::from_secs_f64(seconds))
+    Duration::try_from_secs_f64(seconds)
+        .map_err(|_| format!("`{text}` is longer than any time; give one such as 5min"))
 }
 
 /// Reads a comma-separated budget: `30s`, `5min`, `1h`, `2e6boxes`, `depth=9`, `res=0.1`.

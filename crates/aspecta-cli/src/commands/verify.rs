@@ -10,7 +10,7 @@ use crate::output::{self, note};
 use crate::show::facts;
 use crate::work::watch::{watched, within};
 use aspecta::certificate::{Certificate, CertificateError};
-use aspecta::robot::{Robot, catalogue};
+use aspecta::robot::{Limit, Robot, catalogue};
 use aspecta::verify::verify;
 use clap::Args;
 use std::io::Write;
@@ -94,7 +94,16 @@ fn is_namesake(robot: &Robot) -> bool {
     catalogue::find(&robot.name).is_some_and(|known| !is_same(&known, robot))
 }
 
-/// Whether two robots are the same for the arithmetic.
+/// Whether two robots are the same for the arithmetic, for which it does not matter by which turn a joint angle is called.
 fn is_same(a: &Robot, b: &Robot) -> bool {
-    (a.platform, &a.legs, &a.window) == (b.platform, &b.legs, &b.window)
+    let legs = |robot: &Robot| {
+        let mut legs = robot.legs.clone();
+        for limit in legs.iter_mut().flat_map(|leg| &mut leg.limits) {
+            if let Limit::ActuatorAngle { turns, .. } = limit {
+                *turns = 0;
+            }
+        }
+        legs
+    };
+    (a.platform, legs(a), &a.window) == (b.platform, legs(b), &b.window)
 }
