@@ -124,19 +124,9 @@ pub(super) fn q_bounds(robot: &Robot, paving: &Paving, mode: WorkingMode, boxes:
         joints.into_iter().enumerate().map(within).collect()
     };
     add_images(paving, boxes, &mut unions, &image);
-    let bounds = |(union, leg): (Union, &Leg)| in_range(leg, hull(union.0, leg.actuator.is_angle()));
-    unions.into_iter().zip(&robot.legs).map(bounds).collect()
-}
-
-/// Bounds of a joint's values, by full turns in the joint's own range.
-fn in_range(leg: &Leg, (lo, hi): (f64, f64)) -> (f64, f64) {
-    let middle = 0.5 * (lo + hi);
-    let turns = ((leg.in_range(middle) - middle) / TAU).round();
-    if turns == 0.0 {
-        return (lo, hi);
-    }
-    let turned = |x: f64| Interval::point(x) + Interval::PI * Interval::point(2.0 * turns);
-    (turned(lo).lo, turned(hi).hi)
+    // Angles with limits are in the range of these, which is no circle.
+    let turns = |j: usize| limits[j].is_none() && robot.legs[j].actuator.is_angle();
+    unions.into_iter().enumerate().map(|(j, union)| hull(union.0, turns(j))).collect()
 }
 
 /// Enclosures of the joints over a box, wherever the legs close in it.
@@ -163,7 +153,7 @@ fn clamped(x: Interval, (lo, hi): (f64, f64)) -> Interval {
     Interval::new(x.lo.clamp(lo, hi), x.hi.clamp(lo, hi))
 }
 
-/// Returns the common part of a range and a limit; angles may lie full turns apart.
+/// Returns the common part of a range and a limit: of angles, which may lie full turns apart, what holds all of it in the turns of the limit.
 fn common(limit: Interval, x: Interval, leg: &Leg) -> Interval {
     if !leg.actuator.is_angle() {
         return clamped(x, (limit.lo, limit.hi));
@@ -171,14 +161,10 @@ fn common(limit: Interval, x: Interval, leg: &Leg) -> Interval {
     if x.width() >= TAU {
         return limit;
     }
-    let nearest = ((x.mid() - limit.mid()) / TAU).round();
-    let turned = |k: f64| limit + Interval::PI * Interval::point(2.0 * (nearest + k));
-    let mut shared =
-        [-2.0, -1.0, 0.0, 1.0, 2.0].map(turned).into_iter().filter(|l| l.lo <= x.hi && x.lo <= l.hi);
-    match (shared.next(), shared.next()) {
-        (Some(limit), None) => limit.meet(x),
-        _ => x,
-    }
+    let nearest = ((limit.mid() - x.mid()) / TAU).round();
+    let turned = |k: f64| x + Interval::PI * Interval::point(2.0 * (nearest + k));
+    let shared = [-1.0, 0.0, 1.0].map(turned).into_iter().filter(|x| limit.lo <= x.hi && x.lo <= limit.hi);
+    shared.map(|x| limit.meet(x)).reduce(Interval::hull).unwrap_or(limit)
 }
 
 #[cfg(test)]
@@ -211,12 +197,12 @@ mod tests {
         assert!((limit.lo - 2.5).abs() < 1e-12 && (limit.hi - 3.5).abs() < 1e-12);
         // The same angles, a full turn further on.
         let shared = common(limit, Interval::new(-3.9, -2.9), &leg);
-        assert!((shared.lo - (2.5 - std::f64::consts::TAU)).abs() < 1e-12 && shared.hi == -2.9);
+        assert!((shared.lo - 2.5).abs() < 1e-12 && (shared.hi - (TAU - 2.9)).abs() < 1e-12);
         assert_eq!(common(limit, Interval::new(-4.0, 4.0), &leg), limit);
-        // Two parts are left as they are.
+        // Two parts, at both ends of the range.
         leg.limits = vec![arc(3.0, 3.0)];
-        let around = Interval::new(-1.0, 1.0);
-        assert_eq!(common(leg.drive_enclosure().unwrap(), around, &leg), around);
+        let limit = leg.drive_enclosure().unwrap();
+        assert_eq!(common(limit, Interval::new(-1.0, 1.0), &leg), limit);
     }
 
     #[test]
