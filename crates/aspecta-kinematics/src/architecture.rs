@@ -20,19 +20,20 @@ const ROUNDED: f64 = 1e-3;
 pub enum Architecture {
     /// Some configuration is far from singular, or too few were found.
     Regular,
-    /// det A vanishes at all of them, to 10⁻¹² of the homogeneous A: two legs may be one and the same, or all joints of a platform in
-    /// one line. Such a robot moves with all actuators locked, and has no aspects.
+    /// det A vanishes at all of them, to 10⁻¹² of the homogeneous A: two legs may be one and the same, or all
+    /// joints of a platform in one line. Such a robot moves with all actuators locked, and has no aspects.
     Singular,
-    /// At none of them is the homogeneous A further than this, below 10⁻³, from a singular matrix: that it is not one may be due to the
-    /// decimals in which lengths were written down, and the robot as built hardly keeps its platform.
+    /// At none of them is the homogeneous A further than this, below 10⁻³, from a singular matrix: that it is
+    /// not one may be due to the decimals in which lengths were written down, and the robot as built hardly
+    /// keeps its platform.
     NearlySingular {
         /// The greatest [`State::parallel_measure`](super::singularity::State::parallel_measure) seen.
         measure: f64,
     },
 }
 
-/// Returns whether a robot is singular at every configuration drawn at random, 64 or more of them, in every working mode
-/// there. *Numerical*.
+/// Returns whether a robot is singular at every configuration drawn at random, 64 or more of them, in every
+/// working mode there. *Numerical*.
 ///
 /// Poses are drawn in the robot's window, or, if it has none, within three characteristic lengths of the
 /// origin.

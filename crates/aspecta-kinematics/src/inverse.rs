@@ -11,7 +11,8 @@ use aspecta_robot::num::Interval;
 /// The inverse solutions of one leg at a pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LegSolutions {
-    /// q for s = + and s = −, angles as [`Leg::joint_value`](aspecta_robot::Leg::joint_value) tells them; `None` where the posture does not exist (out of reach, or a strut's s = +).
+    /// q for s = + and s = −, as [`Leg::joint_value`](aspecta_robot::Leg::joint_value) tells it; `None` where
+    /// the posture does not exist (out of reach, or a strut's s = +).
     pub q: [Option<f64>; 2],
     /// H / H_max, in [0, 1]: the square of the sine of the elbow angle; 0 at a serial singularity, below
     /// 0 out of reach. 1 for struts.

@@ -1,6 +1,6 @@
 //! Singularities (Definitions 3 and 4): of which kind a configuration is, and how near it is to one.
 
-use super::{KinematicsError, LegIndex, Velocities, WorkingMode};
+use super::{KinematicsError, LegIndex, WorkingMode};
 use crate::Kinematics;
 use aspecta_robot::{Actuator, Robot};
 use nalgebra::DMatrix;
@@ -93,8 +93,6 @@ pub struct State {
     pub serial_measures: Vec<f64>,
     /// The legs in serial singularity.
     pub serial_legs: Vec<LegIndex>,
-    /// What moves and what does not.
-    pub velocities: Velocities,
     /// The measure at or below which a configuration is called singular: [`SINGULAR`].
     pub tolerance: f64,
 }
@@ -118,7 +116,6 @@ pub(crate) fn state(robot: &Robot, pose: &[f64], q: &[f64]) -> Result<State, Kin
         singularity: Singularity::of(parallel_measure <= SINGULAR, !serial_legs.is_empty()),
         parallel_measure,
         serial_measures,
-        velocities: Velocities::new(robot, pose, (&jacobians.a, &jacobians.b), &serial_legs),
         serial_legs,
         tolerance: SINGULAR,
         a: jacobians.a,

@@ -1,20 +1,20 @@
 //! What moves at a configuration and what does not (Definitions 3 and 4): A t + B q̇ = 0.
 
 use super::LegIndex;
-use super::singularity::{SINGULAR, homogeneous};
+use super::singularity::{SINGULAR, State, homogeneous};
 use crate::placement::Placement;
 use aspecta_robot::Robot;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, RowDVector, SVD};
 use serde::Serialize;
 
-/// The velocities that a configuration allows: twists t (translations, then the angular velocity) of the platform and speeds q̇ of the
-/// joints with A t + B q̇ = 0. *Numerical*, at the tolerance [`SINGULAR`].
-///
-/// Angular velocities count by the length of [`Velocities::length`]: twists of length 1 are given.
+/// The velocities that a configuration allows ([`State::velocities`]): twists t (translations, then the
+/// angular velocity) of the platform and speeds q̇ of the joints with A t + B q̇ = 0. *Numerical*, at the
+/// tolerance [`SINGULAR`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Velocities {
-    /// The length by which moments are divided to compare them with forces; `None` where nothing is: only translations, or only turns.
+    /// The length by which moments are divided to compare them with forces; `None` for a platform that only
+    /// moves without turning, or only turns.
     pub length: Option<f64>,
     /// The singular values of the homogeneous A, greatest first; empty if A has no finite ones.
     pub singular_values: Vec<f64>,
@@ -22,10 +22,11 @@ pub struct Velocities {
     pub rank_a: usize,
     /// The rank of B: legs that are not at a serial singularity.
     pub rank_b: usize,
-    /// The kernel of A: twists that the platform gains, which it can have while the actuators are locked (Definition 3).
+    /// The kernel of A: twists that the platform gains, which it can have while the actuators are locked
+    /// (Definition 3); of length 1 if angular velocities count by [`Velocities::length`].
     pub gained: Vec<Vec<f64>>,
-    /// Per leg at a serial singularity the twist along which the platform cannot move, whatever the actuators do: t is perpendicular to it
-    /// (Definition 4).
+    /// Per leg at a serial singularity the direction that every twist is perpendicular to, whatever the actuators
+    /// do (Definition 4).
     pub lost: Vec<Lost>,
     /// −A⁻¹B, by which t = −A⁻¹B q̇, row by row; `None` at a parallel singularity.
     pub twist_of_joints: Option<Vec<Vec<f64>>>,
@@ -56,45 +57,51 @@ pub enum SerialPosture {
     Square,
 }
 
-impl Velocities {
-    pub(crate) fn new(
-        robot: &Robot,
-        pose: &[f64],
-        (a, b): (&[Vec<f64>], &[f64]),
-        serial: &[LegIndex],
-    ) -> Self {
+impl State {
+    /// What moves at the configuration and what does not.
+    ///
+    /// # Examples
+    /// ```
+    /// use aspecta_kinematics::{Kinematics, SerialPosture};
+    /// use aspecta_robot::Robot;
+    ///
+    /// // |A1 C| = 13 = 8 + 5: the first leg is stretched along x.
+    /// let robot = Robot::resolve("five-bar")?;
+    /// let q = robot.inverse(&[13.0, 0.0])?[0].q.clone();
+    /// let velocities = robot.state(&[13.0, 0.0], &q)?.velocities(&robot);
+    /// assert_eq!((velocities.rank_a, velocities.rank_b), (2, 1));
+    /// assert_eq!(velocities.lost[0].posture, SerialPosture::Stretched);
+    /// assert_eq!(velocities.lost[0].twist[0].abs(), 1.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn velocities(&self, robot: &Robot) -> Velocities {
         let (n, coordinates) = (robot.dof(), robot.platform.coordinates());
         let turns = coordinates.iter().filter(|c| c.angle).count();
         let length = (0 < turns && turns < n).then(|| robot.characteristic_length());
         // Column k of the homogeneous A belongs to the speed t_k times this.
         let scale = |k: usize| if coordinates[k].angle { length.unwrap_or(1.0) } else { 1.0 };
-        let matrix = homogeneous(robot, a);
-        let lost = serial.iter().map(|&leg| Lost {
+        let matrix = homogeneous(robot, &self.a);
+        let lost = self.serial_legs.iter().map(|&leg| Lost {
             leg,
-            posture: posture(robot, pose, leg),
+            posture: posture(robot, &self.pose, leg),
             twist: matrix.row(leg.index()).iter().enumerate().map(|(k, x)| x * scale(k)).collect(),
         });
+        let lost = lost.collect();
         let (mut singular_values, mut gained) = (Vec::new(), Vec::new());
         if matrix.iter().all(|x| x.is_finite()) {
-            let svd = matrix.clone().svd(false, true);
-            let mut order: Vec<usize> = (0..n).collect();
-            order.sort_by(|&i, &j| svd.singular_values[j].total_cmp(&svd.singular_values[i]));
-            singular_values = order.iter().map(|&k| svd.singular_values[k]).collect();
-            let kernel = order.iter().filter(|&&k| svd.singular_values[k] <= SINGULAR);
-            let twist = |row: &usize| {
-                let v =
-                    svd.v_t.as_ref().map(|v| v.row(*row).transpose()).unwrap_or_else(|| DVector::zeros(n));
-                v.iter().enumerate().map(|(k, x)| x / scale(k)).collect()
-            };
-            gained = kernel.map(twist).collect();
+            let SVD { singular_values: values, v_t, .. } = matrix.svd(false, true);
+            let twist = |row: RowDVector<f64>| row.iter().enumerate().map(|(k, x)| x / scale(k)).collect();
+            let kernel = values.iter().zip(v_t.iter().flat_map(|v| v.row_iter()));
+            let kernel = kernel.filter(|(value, _)| **value <= SINGULAR);
+            gained = kernel.map(|(_, row)| twist(row.into_owned())).collect();
+            singular_values = values.iter().copied().collect();
         }
         let rank_a = singular_values.len() - gained.len();
-        let regular = rank_a == n;
-        Self {
+        Velocities {
             length,
-            lost: lost.collect(),
-            rank_b: n - serial.len(),
-            twist_of_joints: regular.then(|| twist_of_joints(a, b)).flatten(),
+            lost,
+            rank_b: n - self.serial_legs.len(),
+            twist_of_joints: if rank_a == n { twist_of_joints(&self.a, &self.b) } else { None },
             rank_a,
             singular_values,
             gained,

@@ -52,8 +52,8 @@ pub enum Limit {
         middle: (Interval, Interval),
         /// cos of its half-width.
         half_cos: Interval,
-        /// Full turns from the angle of `middle` in (−π, π] to the middle that the robot file means: 1 for the range 200° to
-        /// 400°. No configuration depends on it, but the value by which a joint angle is called does.
+        /// Full turns from the angle of `middle` in (−π, π] to the middle that the robot file means: 1 for
+        /// the range 200° to 400°. No configuration depends on it, but how a joint's value is told.
         #[serde(default, skip_serializing_if = "is_zero")]
         turns: i32,
     },
@@ -126,6 +126,20 @@ fn is_zero(turns: &i32) -> bool {
 }
 
 impl Limit {
+    /// The middle of the range of a driven angle, as the robot file means it (rad); `None` of other limits.
+    pub(crate) fn middle_angle(&self) -> Option<f64> {
+        match self {
+            Self::ActuatorAngle { middle: (cos, sin), turns, .. } => {
+                Some(sin.mid().atan2(cos.mid()) + TAU * f64::from(*turns))
+            }
+            Self::ActuatorLength { .. }
+            | Self::Elbow { .. }
+            | Self::SpatialElbow { .. }
+            | Self::BaseCone { .. }
+            | Self::PlatformCone { .. } => None,
+        }
+    }
+
     /// The joint it limits, as robot files call it.
     pub fn joint(&self) -> &'static str {
         match self {
@@ -152,9 +166,8 @@ impl Leg {
     /// The range of the driven joint, if it has one, as the robot file gives it: rad or length units.
     pub fn drive_range(&self) -> Option<(f64, f64)> {
         self.limits.iter().find_map(|limit| match limit {
-            Limit::ActuatorAngle { middle: (cos, sin), half_cos, turns } => {
-                let middle = sin.mid().atan2(cos.mid()) + TAU * f64::from(*turns);
-                let half = half_cos.mid().acos();
+            Limit::ActuatorAngle { half_cos, .. } => {
+                let (middle, half) = (limit.middle_angle()?, half_cos.mid().acos());
                 Some((middle - half, middle + half))
             }
             Limit::ActuatorLength { min, max } => Some((min.mid(), max.mid())),
@@ -182,19 +195,16 @@ impl Leg {
         })
     }
 
-    /// The value of the driven joint, as people and controllers call it: a length, or the angle (rad) that lies within the
-    /// joint's own range, or next to it if none does; in (−π, π] if the joint has no limits.
+    /// The value of the driven joint, as people and controllers call it: a length, or the angle (rad) that lies
+    /// within the joint's own range, or next to it if none does; in (−π, π] if the joint has no limits.
     pub fn joint_value(&self, drive: Drive<f64>) -> f64 {
         self.in_range(drive.value())
     }
 
-    /// Turns a value of the driven joint by full turns into the joint's range, or as near to its middle as may be; lengths, and angles
-    /// of joints without limits, are left as they are.
+    /// Turns a value of the driven joint by full turns into the joint's range, or as near to its middle as may
+    /// be; lengths, and angles of joints without limits, are left as they are.
     pub fn in_range(&self, q: f64) -> f64 {
-        match self.drive_range() {
-            Some((low, high)) if self.actuator.is_angle() => turned_to(q, 0.5 * (low + high)),
-            _ => q,
-        }
+        self.limits.iter().find_map(Limit::middle_angle).map_or(q, |middle| turned_to(q, middle))
     }
 
     /// The limits of a driven length, if it has any: (min, max).

@@ -7,7 +7,8 @@ use crate::num::Interval;
 /// Lengths of one robot differ by less: by this much only if some are in other units than others.
 const APART: f64 = 100.0;
 
-/// Two lengths of a robot that are so far apart that they seem to be in different units ([`Robot::mixed_units`]).
+/// Two lengths of a robot that are so far apart that they seem to be in different units
+/// ([`Robot::mixed_units`]).
 #[derive(Clone, Debug, PartialEq)]
 pub struct MixedUnits {
     /// The small one: what it is, and its size.
@@ -17,20 +18,20 @@ pub struct MixedUnits {
 }
 
 impl Robot {
-    /// Whether some lengths of the robot seem to be in metres, say, and others in millimetres: the size of the base (the greatest distance of two
-    /// anchors), that of the platform, and the links of the legs. Lengths of zero do not count.
+    /// Whether some lengths of the robot seem to be in metres, say, and others in millimetres: the size of the
+    /// base (the greatest distance of two anchors), that of the platform, and the links of the legs. Lengths of
+    /// zero do not count.
     ///
     /// # Examples
     /// ```
-    /// use aspecta_robot::{Leg, Platform, Robot};
+    /// use aspecta_robot::{Leg, Robot};
     ///
-    /// let legs = vec![Leg::revolute([0.0, 0.0], [0.0, 0.0], 8.0, 5.0), Leg::revolute([9.0, 0.0], [0.0, 0.0], 5.0, 8.0)];
-    /// let mut robot = Robot::new("five-bar", Platform::PlanePoint, legs)?;
+    /// let mut robot = Robot::resolve("five-bar")?;
     /// assert!(robot.mixed_units().is_none());
     ///
     /// robot.legs[1] = Leg::revolute([9.0, 0.0], [0.0, 0.0], 5.0, 8000.0);
     /// assert_eq!(robot.mixed_units().unwrap().large.0, "the rod of leg 2");
-    /// # Ok::<(), aspecta_robot::RobotError>(())
+    /// # Ok::<(), aspecta_robot::FileError>(())
     /// ```
     pub fn mixed_units(&self) -> Option<MixedUnits> {
         let points = |of: fn(&crate::Leg) -> [Interval; 3]| self.legs.iter().map(of).collect::<Vec<_>>();

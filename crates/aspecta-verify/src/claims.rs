@@ -47,8 +47,8 @@ pub(super) fn sign_of(class: usize) -> f64 {
     if class.is_multiple_of(2) { 1.0 } else { -1.0 }
 }
 
-/// Proves what is claimed of a leaf, which `charts` may cover; returns how many boxes it was cut into. Once `cancelled`, nothing is proved, and
-/// the verdict is incomplete.
+/// Proves what is claimed of a leaf, which `charts` may cover; returns how many boxes it was cut into. Once
+/// `cancelled`, nothing is proved, and the verdict is incomplete.
 pub(super) fn prove<const D: usize>(
     setting: &Setting<'_>,
     modes: &[WorkingMode],

@@ -15,15 +15,16 @@ pub fn writable(dir: &Path) -> io::Result<()> {
     NamedTempFile::new_in(dir)?.close()
 }
 
-/// Writes `content` into `dir` under a temporary name that nobody can guess, renames it to `name`, and returns the path. Links are followed, and what is
-/// there but no regular file (a device, a pipe) is written into as it is.
+/// Writes `content` into `dir` under a temporary name that nobody can guess, renames it to `name`, and returns
+/// the path. Links are followed, and what is there but no regular file (a device, a pipe) is written into as
+/// it is.
 ///
 /// # Errors
-/// Those of the file system; then no file is left behind.
+/// Those of the file system, and a link that leads nowhere; then no file is left behind.
 pub fn put(dir: &Path, name: &str, content: impl AsRef<[u8]>) -> io::Result<PathBuf> {
     let path = dir.join(name);
-    // What a link leads to, if that is there.
-    let place = fs::canonicalize(&path).unwrap_or_else(|_| path.clone());
+    // What a link leads to.
+    let place = if path.is_symlink() { fs::canonicalize(&path)? } else { path.clone() };
     match fs::metadata(&place) {
         Ok(found) if !found.is_file() => {
             fs::OpenOptions::new().write(true).open(&place)?.write_all(content.as_ref())?

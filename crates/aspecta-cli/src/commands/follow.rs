@@ -9,10 +9,11 @@ use crate::output::{FORMAT_VERSION, Format, Labels, exact, json_line, note};
 use aspecta::kinematics::WorkingMode;
 use aspecta::motion::follow::{Follower, InverseFollower, JointStep, Refusal, Step};
 use aspecta::num::turned_to;
-use aspecta::robot::Robot;
+use aspecta::robot::{GREATEST, Robot};
 use aspecta_view::words::count;
 use clap::Args;
 use serde::Serialize;
+use std::f64::consts::PI;
 use std::io::Write;
 
 /// Arguments of `follow`.
@@ -129,7 +130,10 @@ impl Follow {
                 Ok((found, outcome)) => (Some(found), outcome),
             };
             steps += 1;
-            refused += usize::from(found.is_none());
+            match found {
+                Some(_) => turns.last.clone_from(&row.values),
+                None => refused += 1,
+            }
             doubtful += usize::from(matches!(outcome, Outcome::Certified { regular: Some(false), .. }));
             printer.print(out, &row, found.as_deref(), outcome)?;
             out.flush()?;
@@ -296,6 +300,7 @@ impl Printer {
 struct Turns {
     unwrap: bool,
     warned: bool,
+    /// The last line that was not refused.
     last: Vec<f64>,
 }
 
@@ -304,9 +309,9 @@ impl Turns {
     fn next(&mut self, row: &mut Row, columns: &Columns) {
         for (k, last) in self.last.iter().enumerate().filter(|(k, _)| columns.angles[*k]) {
             let near = turned_to(row.values[k], *last);
-            if self.unwrap {
+            if self.unwrap && row.values[k].abs() < GREATEST {
                 row.values[k] = near;
-            } else if near != row.values[k] && !self.warned {
+            } else if !self.unwrap && (row.values[k] - last).abs() > PI && !self.warned {
                 self.warned = true;
                 note(&format!(
                     "warning: line {}: {} jumps by {:.1} degrees; to go on by {:.1} instead, give --unwrap",
@@ -316,9 +321,6 @@ impl Turns {
                     (near - last).to_degrees()
                 ));
             }
-        }
-        if row.values.iter().all(|x| x.is_finite()) {
-            self.last.clone_from(&row.values);
         }
     }
 }

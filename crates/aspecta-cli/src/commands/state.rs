@@ -107,11 +107,20 @@ fn sound(found: &Found) -> bool {
 
 #[derive(Serialize)]
 struct States<'a> {
-    states: &'a [kinematics::State],
+    states: Vec<InFull<'a>>,
+}
+
+#[derive(Serialize)]
+struct InFull<'a> {
+    #[serde(flatten)]
+    state: &'a kinematics::State,
+    velocities: kinematics::Velocities,
 }
 
 fn print_json(out: &mut dyn Write, robot: &Robot, found: &[Found]) -> Result<(), Failure> {
-    let answers = found.iter().map(|f| (f.query.line, States { states: &f.states }));
+    let in_full = |state| InFull { state, velocities: kinematics::State::velocities(state, robot) };
+    let answers =
+        found.iter().map(|f| (f.query.line, States { states: f.states.iter().map(in_full).collect() }));
     json_of_each(out, robot, answers.collect())
 }
 
@@ -203,13 +212,14 @@ fn print_one(
         s.tolerance
     )?;
     writeln!(out, "residual      {:.1e}", s.residual)?;
-    print_velocities(out, robot, &s.velocities)?;
+    let velocities = s.velocities(robot);
+    print_velocities(out, robot, &velocities)?;
     if matrices {
         for (j, (row, b)) in s.a.iter().zip(&s.b).enumerate() {
             let row: Vec<_> = row.iter().map(|x| number(*x)).collect();
             writeln!(out, "leg {:<2}        A: {}    B: {}", j + 1, row.join("  "), number(*b))?;
         }
-        for (k, row) in s.velocities.twist_of_joints.iter().flatten().enumerate() {
+        for (k, row) in velocities.twist_of_joints.iter().flatten().enumerate() {
             let row: Vec<_> = row.iter().map(|x| number(*x)).collect();
             let name = if k == 0 { "−A⁻¹B" } else { "" };
             writeln!(out, "{name:<13} {}    of {}", row.join("  "), speed(robot, k))?;

@@ -94,7 +94,8 @@ fn is_namesake(robot: &Robot) -> bool {
     catalogue::find(&robot.name).is_some_and(|known| !is_same(&known, robot))
 }
 
-/// Whether two robots are the same for the arithmetic, for which it does not matter by which turn a joint angle is called.
+/// Whether two robots are the same for the arithmetic, for which it does not matter by which turn a joint angle
+/// is called.
 fn is_same(a: &Robot, b: &Robot) -> bool {
     let legs = |robot: &Robot| {
         let mut legs = robot.legs.clone();

@@ -9,7 +9,7 @@ use crate::failure::Failure;
 use crate::output::{note, number};
 use aspecta::domain::Map;
 use aspecta::kinematics::WorkingMode;
-use aspecta::robot::{MixedUnits, Robot};
+use aspecta::robot::{GREATEST, MixedUnits, Robot};
 use std::f64::consts::TAU;
 use std::fs::File;
 use std::io::Read;
@@ -62,10 +62,11 @@ impl Columns {
     }
 }
 
-/// Warns, once, of an angle in radians that is more than a full turn: `way` is how degrees are given.
+/// Warns, once, of an angle in radians that is more than a full turn, and not so great that it is refused: `way` is
+/// how degrees are given.
 pub fn warn_of_degrees(name: &str, angle: f64, way: &str) {
     static WARNED: Once = Once::new();
-    if angle.abs() > TAU {
+    if angle.abs() > TAU && angle.abs() < GREATEST {
         WARNED.call_once(|| {
             let turns = angle.abs() / TAU;
             note(&format!(

@@ -17,7 +17,8 @@ pub struct Found {
     pub complete: Option<bool>,
 }
 
-/// Returns all inverse solutions at a pose, given alone or in a line of a file; says why if there are none, which is an answer.
+/// Returns all inverse solutions at a pose, given alone or in a line of a file; says why if there are none, which
+/// is an answer.
 pub fn inverse(robot: &Robot, pose: &[f64], line: Option<u64>) -> Result<Vec<Solution>, Failure> {
     let solutions = robot.inverse(pose)?;
     if solutions.is_empty() {

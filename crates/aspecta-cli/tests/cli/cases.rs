@@ -190,6 +190,11 @@ fn a_number_that_is_none_does_not_end_a_stream() {
     let text = String::from_utf8(run.stdout).unwrap();
     assert_eq!(text.lines().count(), 4, "{text}");
     assert_eq!(run.status.code(), Some(1));
+    // Nor do others mislead: what was refused is no line to go on from.
+    let poses = "-15.468,0.781,0.073\n-15.468,0.781,nan\n-15.468,0.781,1e300\n-15.468,0.781,0.08\n";
+    let run = aspecta("follow 3-rrr --inverse --mode +++ --unwrap").write_stdin(poses).output().unwrap();
+    let (text, messages) = (String::from_utf8(run.stdout).unwrap(), String::from_utf8(run.stderr).unwrap());
+    assert!(text.ends_with("4 lines: 2 certified, 2 refused\n") && messages.is_empty(), "{text}{messages}");
 }
 
 #[test]
@@ -291,6 +296,12 @@ fn outputs_replace_nothing_but_files() {
     write(&link);
     assert!(std::fs::symlink_metadata(&link).unwrap().is_symlink());
     assert!(std::fs::read_to_string(&real).unwrap().starts_with('{'));
+    let lost = directory.path().join("lost.json");
+    std::os::unix::fs::symlink(directory.path().join("nowhere"), &lost).unwrap();
+    let run =
+        aspecta("analyze five-bar --mode ++ --budget depth=4 --certificate").arg(&lost).output().unwrap();
+    assert_eq!(run.status.code(), Some(2), "{}", String::from_utf8_lossy(&run.stderr));
+    assert!(std::fs::symlink_metadata(&lost).unwrap().is_symlink());
     let device = std::path::Path::new("/dev/null");
     write(device);
     assert!(!std::fs::metadata(device).unwrap().is_file());

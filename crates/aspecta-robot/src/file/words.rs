@@ -33,8 +33,8 @@ pub(crate) fn is_line(text: &str) -> bool {
     !text.contains(is_unprintable)
 }
 
-/// Whether a character would move a terminal, break a table, or be seen as nothing: control characters, and those of no width or that turn
-/// the direction of writing, by which one name can look like another.
+/// Whether a character would move a terminal, break a table, or be seen as nothing: control characters, and
+/// those of no width or that turn the direction of writing, by which one name can look like another.
 pub fn is_unprintable(c: char) -> bool {
     c.is_control()
         || matches!(c, '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}')

@@ -145,8 +145,8 @@ pub fn padded<const K: usize>(values: &[f64]) -> [f64; K] {
     std::array::from_fn(|k| values.get(k).copied().unwrap_or(0.0))
 }
 
-/// An angle turned by full turns to be next to another one: at most π (and roundings) away. An angle that is next to it already
-/// keeps its digits.
+/// An angle turned by full turns to be next to another one: at most π (and roundings) away. An angle that is
+/// next to it already keeps its digits.
 pub fn turned_to(angle: f64, near: f64) -> f64 {
     angle + std::f64::consts::TAU * ((near - angle) / std::f64::consts::TAU).round()
 }

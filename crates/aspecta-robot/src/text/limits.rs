@@ -2,7 +2,6 @@
 
 use super::brief;
 use crate::Limit;
-use std::f64::consts::TAU;
 
 impl Limit {
     /// The limit in words: `q from -0.3491 to 3.4907 rad`; lengths are in `unit`.
@@ -16,9 +15,8 @@ impl Limit {
     /// ```
     pub fn in_words(&self, unit: &str) -> String {
         match self {
-            Self::ActuatorAngle { middle: (cos, sin), half_cos, turns } => {
-                let middle = sin.mid().atan2(cos.mid()) + TAU * f64::from(*turns);
-                range("q", middle, half_cos.mid().acos())
+            Self::ActuatorAngle { half_cos, .. } => {
+                range("q", self.middle_angle().unwrap_or(0.0), half_cos.mid().acos())
             }
             Self::ActuatorLength { min, max } => {
                 format!("q from {} to {} {unit}", brief(min.mid()), brief(max.mid()))

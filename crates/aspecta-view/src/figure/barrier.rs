@@ -7,7 +7,7 @@ use aspecta::kinematics::WorkingMode;
 use aspecta::kinematics::constraints::Configuration;
 use aspecta::kinematics::modal::closures;
 use aspecta::kinematics::placement::{Placement, determinant, out_of_frame, wrench};
-use aspecta::robot::{Platform, Robot};
+use aspecta::robot::{LegIndex, Platform, Robot};
 
 /// The kind of curve that bounds an aspect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -30,8 +30,9 @@ pub struct Barriers {
     pub margins: Vec<(Kind, f64)>,
     /// q = g_s(X), also on the boundary; angles within the ranges of their joints.
     pub q: Vec<f64>,
-    /// A leg (from 0) whose C is so near to the axis of its crank that it is folded, and its q free, as far as a picture shows.
-    pub folded: Option<usize>,
+    /// A leg whose C is so near to the axis of its crank that it is folded, and its q free, as far as a picture
+    /// shows.
+    pub folded: Option<LegIndex>,
 }
 
 /// The distance from C to the axis of a crank, by the length of the crank, at which the leg counts as folded.
@@ -64,7 +65,7 @@ fn barriers<const D: usize, const N: usize>(robot: &Robot, mode: WorkingMode, po
             margins.push((Kind::Serial, closure.reach));
         }
         if leg.actuator.usual_weight().is_some_and(|usual| closure.weight < usual * FOLDED.powi(2)) {
-            folded = Some(j);
+            folded = Some(LegIndex::new(j));
         }
         q.push(leg.joint_value(leg.actuator.drive(&at.span, closure, sh)));
     }

@@ -3,7 +3,8 @@
 use super::barrier::{Barriers, Kind};
 use super::level::{Grid, contours, project};
 use aspecta::kinematics::WorkingMode;
-use aspecta::robot::Robot;
+use aspecta::num::turned_to;
+use aspecta::robot::{LegIndex, Robot};
 use std::f64::consts::PI;
 
 /// A plane of poses: all coordinates fixed but two.
@@ -134,9 +135,10 @@ impl Sheet<'_> {
         best
     }
 
-    /// The image g_s(curve) in Q, refined until no coordinate q_k steps by more than `step[k]`; angles are unwound, so
-    /// that each line is continuous. Where a leg is folded (C on the axis of its crank) its joint is free, and all its values are the image of
-    /// that serial singularity, whatever curve leads to it: lines end there, and one goes through the joint's whole range.
+    /// The image g_s(curve) in Q, refined until no coordinate q_k steps by more than `step[k]`; angles are
+    /// unwound, so that each line is continuous. Where a leg is folded (C on the axis of its crank) its joint is
+    /// free, and all its values are the image of that serial singularity, whatever curve leads to it: lines end
+    /// there, and one goes through the joint's whole range.
     pub fn images(&self, curve: &Curve, step: &[f64]) -> Vec<Image> {
         let Some(&first) = curve.points.first() else { return Vec::new() };
         let first = (first, self.barriers(first));
@@ -166,7 +168,7 @@ impl Sheet<'_> {
             return self.extend_images(images, b, depth - 1);
         }
         if free.is_some() || (far && depth == 0) {
-            let fold = self.fold(&to.q, free.unwrap_or(widest));
+            let fold = self.fold(&to.q, free.unwrap_or(LegIndex::new(widest)));
             let found = &mut images.found;
             let is_near =
                 |line: &[Vec<f64>]| (0..to.q.len()).all(|k| (line[0][k] - fold[0][k]).abs() < step[k]);
@@ -180,12 +182,12 @@ impl Sheet<'_> {
         images.last = (b, to);
     }
 
-    /// The whole range of the joint of a leg (from 0) that is folded at q.
-    fn fold(&self, q: &[f64], leg: usize) -> [Vec<f64>; 2] {
-        let (low, high) = self.robot.legs[leg].drive_range().unwrap_or((-PI, PI));
+    /// The whole range of the joint of a leg that is folded at q.
+    fn fold(&self, q: &[f64], leg: LegIndex) -> [Vec<f64>; 2] {
+        let (low, high) = self.robot.leg(leg).drive_range().unwrap_or((-PI, PI));
         [low, high].map(|end| {
             let mut q = q.to_vec();
-            q[leg] = end;
+            q[leg.index()] = end;
             q
         })
     }
@@ -204,7 +206,7 @@ struct Images<'a> {
 pub fn unwind(robot: &Robot, mut q: Vec<f64>, near: &[f64]) -> Vec<f64> {
     for ((x, n), leg) in q.iter_mut().zip(near).zip(&robot.legs) {
         if leg.actuator.is_angle() {
-            *x += std::f64::consts::TAU * ((n - *x) / std::f64::consts::TAU).round();
+            *x = turned_to(*x, *n);
         }
     }
     q

@@ -153,7 +153,8 @@ fn clamped(x: Interval, (lo, hi): (f64, f64)) -> Interval {
     Interval::new(x.lo.clamp(lo, hi), x.hi.clamp(lo, hi))
 }
 
-/// Returns the common part of a range and a limit: of angles, which may lie full turns apart, what holds all of it in the turns of the limit.
+/// Returns the common part of a range and a limit: of angles, which may lie full turns apart, what holds all of
+/// it in the turns of the limit.
 fn common(limit: Interval, x: Interval, leg: &Leg) -> Interval {
     if !leg.actuator.is_angle() {
         return clamped(x, (limit.lo, limit.hi));

@@ -37,8 +37,8 @@ pub struct AnalysisSummary<'a> {
     pub advice: AnalysisAdvice,
 }
 
-/// Prints Theorem 1, Table 1, Definitions 5 and 6, the aspects and their ranges, the run, and last Table 2, the number of aspects and
-/// where its bounds are apart, in 100 columns.
+/// Prints Theorem 1, Table 1, Definitions 5 and 6, the aspects and their ranges, the run, and last Table 2, the
+/// number of aspects and where its bounds are apart, in 100 columns.
 ///
 /// # Examples
 /// ```

@@ -3,9 +3,11 @@
 //! `ASPECTA_CASES` sets the number of random robots and poses (2000 by default).
 
 use aspecta::Kinematics;
+use aspecta::aspect::{ClassId, Options, Place, analyze};
 use aspecta::kinematics::follow::InverseFollower;
 use aspecta::motion::{PathCheck, check_path};
 use aspecta::num::Random;
+use aspecta::paving::{Budget, Control};
 use aspecta::robot::{Robot, catalogue};
 use std::f64::consts::TAU;
 
@@ -90,4 +92,37 @@ fn paths_stay_within_the_ranges() {
         }
     }
     assert!(checked > cases() / 100, "{checked} paths");
+}
+
+/// The bounds of the joints of an aspect are in the ranges of these, and hold the joint values of all its inner poses.
+#[test]
+fn ranges_of_aspects_lie_within_the_ranges() {
+    let random = &mut Random::new(22);
+    let mut inside = 0;
+    for _ in 0..cases() / 100 {
+        let (robot, ranges) = limited("five-bar", random);
+        let budget = Budget { depth: Some(7), ..Budget::default() };
+        let options = Options { budget, ..Options::default() };
+        let analysis = analyze(&robot, &options, &Control::unwatched()).unwrap();
+        for (k, class) in analysis.classes.iter().enumerate() {
+            // Of an aspect that only the chart of a fold shows there are no inner cells.
+            for aspect in class.aspects.iter().filter(|a| a.q_bounds.iter().all(|b| b.0 < b.1)) {
+                let within = |(&(lo, hi), &(from, to)): (&(f64, f64), &(f64, f64))| {
+                    from - 1e-9 <= lo.to_degrees() && hi.to_degrees() <= to + 1e-9
+                };
+                assert!(aspect.q_bounds.iter().zip(&ranges).all(within), "{aspect:?} {ranges:?}");
+            }
+            for _ in 0..100 {
+                let pose: Vec<f64> =
+                    analysis.window.ranges.iter().map(|&range| random.within(range)).collect();
+                let Place::Inside(id) = analysis.locate(&pose, ClassId::new(k)) else { continue };
+                let q = robot.inverse_in(&pose, class.mode).unwrap().unwrap();
+                let bounds = &analysis.aspect(id).unwrap().1.q_bounds;
+                let holds = |(&q, &(lo, hi)): (&f64, &(f64, f64))| (lo - 1e-9..=hi + 1e-9).contains(&q);
+                assert!(q.iter().zip(bounds).all(holds), "{q:?} {bounds:?} {ranges:?}");
+                inside += 1;
+            }
+        }
+    }
+    assert!(inside > cases() / 4, "{inside} poses");
 }
