@@ -97,7 +97,8 @@ typedef struct aspecta_report {
      */
     uint32_t same_aspect;
     /**
-     * Certified steps, 1 or 0: all joints are within their limits at the end. Numerical.
+     * Certified steps, 1 or 0: at the end all joints are within their limits and the pose in the
+     * robot's window. Numerical.
      */
     uint32_t within_limits;
     /**

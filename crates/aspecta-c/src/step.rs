@@ -31,7 +31,8 @@ pub struct aspecta_report {
     /// Certified steps, 1 or 0: the configuration is proved to stay in its generalized aspect. 0 after a direct step: a
     /// leg may have met a serial singularity; after an inverse step: det A may have vanished.
     pub same_aspect: u32,
-    /// Certified steps, 1 or 0: all joints are within their limits at the end. Numerical.
+    /// Certified steps, 1 or 0: at the end all joints are within their limits and the pose in the
+    /// robot's window. Numerical.
     pub within_limits: u32,
     /// ASPECTA_SERIAL: the leg, from 1; else 0.
     pub leg: u32,

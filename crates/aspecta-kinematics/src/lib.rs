@@ -10,6 +10,7 @@ pub mod constraints;
 pub mod cusps;
 pub mod direct;
 pub mod follow;
+mod homogeneous;
 mod inverse;
 mod jacobian;
 mod minors;
@@ -28,7 +29,7 @@ pub use inverse::{LegSolutions, check_joints, check_pose};
 pub use jacobian::Jacobians;
 pub use model::Kinematics;
 pub use out_of_reach::OutOfReach;
-pub use singularity::{SINGULAR, Singularity, State, make_homogeneous};
+pub use singularity::{SINGULAR, Singularity, State};
 pub use velocities::{Lost, SerialPosture, Velocities};
 
 #[doc(hidden)]
@@ -67,7 +68,7 @@ pub struct Solution {
     pub residual: f64,
     /// Whether existence and uniqueness near here are proved by intervals.
     pub certified: bool,
-    /// Whether every joint is within its limits.
+    /// Whether every joint is within its limits and the pose in the robot's window.
     pub within_limits: bool,
 }
 

@@ -2,6 +2,9 @@
 
 use super::{KinematicsError, LegIndex, WorkingMode};
 use crate::Kinematics;
+use crate::constraints::within_limits;
+use crate::for_platform;
+use crate::homogeneous::Homogeneous;
 use aspecta_robot::{Actuator, Robot};
 use nalgebra::DMatrix;
 use serde::Serialize;
@@ -82,10 +85,10 @@ pub struct State {
     /// The kind of singularity.
     pub singularity: Singularity,
     /// The smallest singular value of the homogeneous A: its distance (2-norm) from the nearest
-    /// singular matrix. 0 at a parallel singularity, at most √(n / number of translations) and about 1 at best.
+    /// singular matrix. 0 at a parallel singularity, at most 1.
     ///
-    /// Row j of the homogeneous A is the wrench of leg j for a unit force along its rod, the moment divided by
-    /// [`Robot::characteristic_length`]; for a platform that only turns, the unit moment.
+    /// Row j of the homogeneous A, Â, is the wrench of leg j, moments divided by [`Robot::characteristic_length`]
+    /// (unless the platform only turns), divided by its norm.
     pub parallel_measure: f64,
     /// Per leg |B_jj| / max |B_jj|, in [0, 1]: √ of [`LegSolutions::reach`](super::LegSolutions::reach). For
     /// revolute legs of the plane |sin| of the elbow angle, for prismatic legs |sin| of the angle between rail and
@@ -93,6 +96,9 @@ pub struct State {
     pub serial_measures: Vec<f64>,
     /// The legs in serial singularity.
     pub serial_legs: Vec<LegIndex>,
+    /// Whether it keeps all joint limits strictly and lies in the robot's window; where a leg is at a serial
+    /// singularity, to rounding.
+    pub within_limits: bool,
     /// The measure at or below which a configuration is called singular: [`SINGULAR`].
     pub tolerance: f64,
 }
@@ -100,14 +106,16 @@ pub struct State {
 /// [`Kinematics::state`](crate::Kinematics::state).
 pub(crate) fn state(robot: &Robot, pose: &[f64], q: &[f64]) -> Result<State, KinematicsError> {
     let jacobians = robot.jacobians(pose, q)?;
-    let values = singular_values(&homogeneous(robot, &jacobians.a));
+    let values = singular_values(&Homogeneous::of(robot).matrix(&jacobians.a));
     let serial_measures = serial_measures(robot, &jacobians.b);
     let serial_legs = serial_legs(robot, &jacobians.b);
     let parallel_measure = values.smallest;
+    let mode = jacobians.mode();
     Ok(State {
+        within_limits: for_platform!(robot.platform, keeps_limits(robot, pose, mode)),
         pose: pose.to_vec(),
         q: robot.legs.iter().zip(q).map(|(leg, q)| leg.in_range(*q)).collect(),
-        mode: serial_legs.is_empty().then(|| jacobians.mode()),
+        mode: serial_legs.is_empty().then_some(mode),
         residual: jacobians.residual,
         det_a: jacobians.det_a(),
         det_b: jacobians.det_b(),
@@ -123,29 +131,8 @@ pub(crate) fn state(robot: &Robot, pose: &[f64], q: &[f64]) -> Result<State, Kin
     })
 }
 
-/// A with every row scaled to a unit force (a unit moment, if the platform only turns) and
-/// moments divided by the characteristic length. A row of zeros stays.
-pub(crate) fn homogeneous(robot: &Robot, a: &[Vec<f64>]) -> DMatrix<f64> {
-    let n = robot.dof();
-    let mut all = DMatrix::zeros(n, n);
-    for (j, row) in a.iter().enumerate() {
-        let mut row = row.clone();
-        make_homogeneous(robot, &mut row);
-        row.iter().enumerate().for_each(|(k, x)| all[(j, k)] = *x);
-    }
-    all
-}
-
-/// One row of it, in place.
-pub fn make_homogeneous(robot: &Robot, row: &mut [f64]) {
-    let translations = robot.platform.coordinates().iter().filter(|c| !c.angle).count();
-    let length = if translations > 0 { robot.characteristic_length() } else { 1.0 };
-    let forces = if translations > 0 { translations } else { row.len() };
-    let force = row[..forces].iter().fold(0.0, |norm: f64, x| norm.hypot(*x));
-    for (k, entry) in row.iter_mut().enumerate() {
-        let size = if k < translations { force } else { force * length };
-        *entry = if size > 0.0 { *entry / size } else { 0.0 };
-    }
+fn keeps_limits<const D: usize, const N: usize>(robot: &Robot, pose: &[f64], mode: WorkingMode) -> bool {
+    within_limits::<D, N>(robot, pose)(mode)
 }
 
 /// The legs that are at a serial singularity.

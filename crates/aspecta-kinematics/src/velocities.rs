@@ -1,7 +1,8 @@
 //! What moves at a configuration and what does not (Definitions 3 and 4): A t + B q̇ = 0.
 
 use super::LegIndex;
-use super::singularity::{SINGULAR, State, homogeneous};
+use super::singularity::{SINGULAR, State};
+use crate::homogeneous::Homogeneous;
 use crate::placement::Placement;
 use aspecta_robot::Robot;
 use nalgebra::{DMatrix, RowDVector, SVD};
@@ -80,7 +81,7 @@ impl State {
         let length = (0 < turns && turns < n).then(|| robot.characteristic_length());
         // Column k of the homogeneous A belongs to the speed t_k times this.
         let scale = |k: usize| if coordinates[k].angle { length.unwrap_or(1.0) } else { 1.0 };
-        let matrix = homogeneous(robot, &self.a);
+        let matrix = Homogeneous::of(robot).matrix(&self.a);
         let lost = self.serial_legs.iter().map(|&leg| Lost {
             leg,
             posture: posture(robot, &self.pose, leg),

@@ -152,8 +152,9 @@ impl Robot {
         self.platform.dof()
     }
 
-    /// A length that is typical of the robot (its unit): the longest reach of a leg. Used to make
-    /// rotations and translations comparable in condition numbers, never in a proof.
+    /// A length that is typical of the robot (its unit): the greatest distance of an attachment from the
+    /// platform's origin; of a platform without extent, the size of its largest leg. It makes rotations and
+    /// translations comparable in condition numbers and margins; no proof rests on it.
     pub fn characteristic_length(&self) -> f64 {
         let arm = |l: &Leg| l.attachment.iter().map(|c| c.mid().powi(2)).sum::<f64>().sqrt();
         let arms = self.legs.iter().map(arm).fold(0.0, f64::max);

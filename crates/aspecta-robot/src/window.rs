@@ -3,7 +3,7 @@
 use super::{Leg, Platform, Robot};
 use crate::num::Interval;
 use serde::{Deserialize, Serialize};
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// A box of poses that holds every pose the robot can take, as proved from its link lengths, cut by
 /// the window the user may have set.
@@ -51,12 +51,57 @@ impl Robot {
         Ok(window)
     }
 
+    /// The range of coordinate `k` in the user's window; `None` where that leaves it free. A range of a full
+    /// turn is no limit.
+    pub fn window_range(&self, k: usize) -> Option<(f64, f64)> {
+        let periodic = self.platform.coordinates()[k].periodic;
+        self.window[k].filter(|(low, high)| !(periodic && high - low >= TAU - 1e-12))
+    }
+
+    /// The first coordinate of a pose that lies beyond the user's window, angles by any full turns; `None` if
+    /// all lie within it, its ends included.
+    ///
+    /// # Examples
+    /// ```
+    /// let mut robot = aspecta_robot::Robot::resolve("3-rrr")?;
+    /// robot.window[2] = Some((-0.5, 0.5)); // phi
+    /// assert_eq!(robot.beyond_window(&[0.0, 0.0, 0.5]), None);
+    /// assert_eq!(robot.beyond_window(&[0.0, 0.0, 0.1 - std::f64::consts::TAU]), None);
+    /// assert_eq!(robot.beyond_window(&[0.0, 0.0, 0.6]), Some(2));
+    /// # Ok::<(), aspecta_robot::FileError>(())
+    /// ```
+    pub fn beyond_window(&self, pose: &[f64]) -> Option<usize> {
+        let pose = self.with_level_pitch(pose);
+        (0..self.dof()).find(|&k| {
+            self.window_range(k).is_some_and(|range| {
+                let x =
+                    if self.platform.coordinates()[k].periodic { turned_up(pose[k], range) } else { pose[k] };
+                !(range.0..=range.1).contains(&x)
+            })
+        })
+    }
+
+    /// The same pose with a pitch within ±90°.
+    fn with_level_pitch(&self, pose: &[f64]) -> Vec<f64> {
+        let mut pose = pose.to_vec();
+        if let Some([roll, pitch, yaw]) = self.platform.turns()
+            && pose[pitch].abs() > FRAC_PI_2
+        {
+            let (sin, cos) = pose[pitch].sin_cos();
+            pose[pitch] = sin.atan2(cos.abs());
+            if cos < 0.0 {
+                pose[roll] += PI;
+                pose[yaw] += PI;
+            }
+        }
+        pose
+    }
+
     /// The extent of coordinate `k`, infinite where nothing bounds it.
     fn extent(&self, k: usize) -> Extent {
         let c = self.platform.coordinates()[k];
         let natural = if c.angle { angle_range(c.periodic) } else { self.length_reach(k) };
-        // A range of a full turn is no limit.
-        let asked = self.window[k].filter(|r| !(c.periodic && r.1 - r.0 >= TAU - 1e-12));
+        let asked = self.window_range(k);
         let range = match asked {
             Some((lo, hi)) if !c.periodic => (natural.0.max(lo), natural.1.min(hi)),
             Some(range) => range,
@@ -162,9 +207,14 @@ impl Window {
             let rounding = 4.0 * f64::EPSILON * x.abs().max(lo.abs());
             return if turns != 0.0 && (x - lo - turns * TAU).abs() <= rounding { lo } else { x };
         }
-        let turned = lo + (x - lo).rem_euclid(TAU);
+        let turned = turned_up(x, (lo, hi));
         if turned <= hi { turned } else { x }
     }
+}
+
+/// An angle by full turns at or above the lower end of a range; one that lies in it keeps its digits.
+fn turned_up(x: f64, (low, high): (f64, f64)) -> f64 {
+    if (low..=high).contains(&x) { x } else { low + (x - low).rem_euclid(TAU) }
 }
 
 fn angle_range(full_turn: bool) -> (f64, f64) {

@@ -8,8 +8,8 @@ use clap::Args;
 #[derive(Args)]
 pub struct Away {
     /// Stay away from singularities: |det Â| at least M and every |B_jj|/max at least N (or M), each from 0
-    /// to 1, proved. Â is A with its rows scaled to unit forces and moments divided by the greatest arm of the
-    /// platform: |det Â| is 1 at most for points, and √2 to the power of the number of legs for bodies
+    /// to 1, proved. Â is A with moments divided by the greatest arm of the platform and then every row scaled
+    /// to length 1, so that |det Â| is 1 at most
     #[arg(long, value_name = "M[,N]", allow_hyphen_values = true)]
     avoid: Option<String>,
 }

@@ -25,8 +25,8 @@ between the lines of the file too: it is proved by interval arithmetic, or said 
 A spline passes through all lines, with continuous curvature, over the lengths of its chords (lengths divided by the robot's \
 characteristic length, angles in radians); its ends are not-a-knot. Angles are real numbers: they go on past 180 degrees, and \
 a step from 179 to -179 degrees is nearly a full turn.\n\
-The clearances are the least |det A| (in the paper's unit), |det Â| (rows of A scaled to unit forces, moments by the characteristic \
-length) and |B_jj| as a share of the greatest, along the path or up to where it meets a singularity.\n\n\
+The clearances are the least |det A| (in the paper's unit), |det Â| (moments divided by the greatest arm of the \
+platform and then rows scaled to length 1: 1 at most) and |B_jj| as a share of the greatest, along the path or up to where it meets a singularity.\n\n\
   aspecta check-path 3-rrr path.csv --mode +++\n\
   aspecta check-path 3-rrr path.csv --mode +++ --joined spline --avoid 0.05,0.1\n\
   aspecta check-path 3-rrr joints.csv --start -15.468,0.781,0.073 --csv")]

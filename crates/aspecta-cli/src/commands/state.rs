@@ -131,7 +131,11 @@ fn print_csv(out: &mut dyn Write, robot: &Robot, found: &[Found]) -> Result<(), 
     let serial = (1..=robot.dof()).map(|k| format!("serial_measure_{k}"));
     let first = ["line".to_owned()].into_iter();
     csv.write_record(
-        first.chain(names).chain(labels.map(String::from)).chain(serial).chain(["residual".into()]),
+        first
+            .chain(names)
+            .chain(labels.map(String::from))
+            .chain(serial)
+            .chain(["residual", "within_limits"].map(String::from)),
     )?;
     for f in found {
         let line = f.query.line.map_or(String::new(), |l| l.to_string());
@@ -141,7 +145,10 @@ fn print_csv(out: &mut dyn Write, robot: &Robot, found: &[Found]) -> Result<(), 
             let measures = [s.det_a, s.det_b, s.condition_a, s.condition_b, s.parallel_measure];
             let numbers = measures.iter().chain(&s.serial_measures).chain([&s.residual]).map(|x| exact(*x));
             let vectors = s.pose.iter().chain(&s.q).map(|x| exact(*x));
-            csv.write_record([line.clone()].into_iter().chain(vectors).chain(labels).chain(numbers))?;
+            let within = s.within_limits.to_string();
+            csv.write_record(
+                [line.clone()].into_iter().chain(vectors).chain(labels).chain(numbers).chain([within]),
+            )?;
         }
     }
     csv.flush()?;
@@ -155,13 +162,16 @@ fn print_table(out: &mut dyn Write, robot: &Robot, found: &[Found], degrees: boo
     }
     let right = ["line", "mode", "det A", "cond. A", "cond. B", "to parallel", "to serial"];
     let headings = right.map(|name| (name.to_owned(), Align::Right));
-    let mut table = Table::new(headings.into_iter().chain([("singularity".to_owned(), Align::Left)]));
+    let mut table = Table::new(
+        headings.into_iter().chain(["singularity", "limits"].map(|name| (name.to_owned(), Align::Left))),
+    );
     for f in found {
         for s in &f.states {
             let serial = s.serial_measures.iter().copied().fold(f64::INFINITY, f64::min);
             let numbers = [s.det_a, s.condition_a, s.condition_b, s.parallel_measure, serial].map(number);
             let line = f.query.line.unwrap_or_default().to_string();
-            table.row([line, mode(s)].into_iter().chain(numbers).chain([s.singularity.name().into()]));
+            let labels = [s.singularity.name(), if s.within_limits { "within" } else { "beyond" }];
+            table.row([line, mode(s)].into_iter().chain(numbers).chain(labels.map(String::from)));
         }
     }
     write!(out, "{table}")?;
@@ -183,7 +193,8 @@ fn print_one(
 ) -> Result<(), Failure> {
     let serial = if s.mode.is_none() { " (0: serial singularity)" } else { "" };
     writeln!(out, "\nworking mode  {}{serial}", mode(s))?;
-    writeln!(out, "joints        {}", Labels::joints(robot, degrees).sentence(&s.q))?;
+    let limits = if s.within_limits { "" } else { " (beyond limits)" };
+    writeln!(out, "joints        {}{limits}", Labels::joints(robot, degrees).sentence(&s.q))?;
     writeln!(
         out,
         "det A         {}{}, condition {}",

@@ -372,3 +372,63 @@ fn a_stream_of_angles_can_be_unwrapped() {
         "{rows}"
     );
 }
+
+/// `five-bar-window` is a five-bar for y from 40 to 130 only.
+#[test]
+fn a_window_means_the_same_in_all_commands() {
+    let robot = case("five-bar-window");
+    for (y, inside) in [(120, true), (130, true), (131, false)] {
+        let found = json(&format!("ik {robot} --pose 59,{y} --mode +- --json"));
+        assert_eq!(found["solutions"][0]["within_limits"], inside, "{found}");
+        let q = numbers(&found["solutions"][0]["q"]);
+        let q = q.iter().map(f64::to_string).collect::<Vec<_>>().join(",");
+        let found = json(&format!("fk {robot} --q={q} --mode=+- --json"));
+        let is_here = |s: &&Value| (numbers(&s["pose"])[1] - f64::from(y)).abs() < 1e-6;
+        let here = found["solutions"].as_array().unwrap().iter().find(is_here).unwrap();
+        assert_eq!(here["within_limits"], inside, "{here}");
+        let state = json(&format!("state {robot} --pose 59,{y} --q={q} --json"));
+        assert_eq!(state["states"][0]["within_limits"], inside, "{state}");
+        let path = format!("59,120\n59,{y}\n");
+        let run =
+            aspecta(&format!("check-path {robot} - --mode=+- --json")).write_stdin(path).output().unwrap();
+        let check: Value = serde_json::from_slice(&run.stdout).unwrap();
+        assert_eq!(
+            (check["within_limits"].as_bool(), run.status.code()),
+            (Some(inside), Some(i32::from(!inside)))
+        );
+        if !inside {
+            assert_eq!(check["obstacle"]["constraint"]["kind"], "window", "{check}");
+            assert_eq!(check["obstacle"]["constraint"]["coordinate"], "y", "{check}");
+            let t = numbers(&check["obstacle"]["t"]);
+            assert!(t[0] <= 10.0 / 11.0 && 10.0 / 11.0 <= t[1] && t[1] - t[0] < 1e-9, "{t:?}");
+        }
+        let line = format!("59,120\n59,{y}\n");
+        let run = aspecta(&format!("follow {robot} --inverse --mode=+- --json"))
+            .write_stdin(line)
+            .output()
+            .unwrap();
+        let last: Value = serde_json::from_slice(run.stdout.split(|b| *b == b'\n').nth(1).unwrap()).unwrap();
+        assert_eq!(last["within_limits"], inside, "{last}");
+    }
+    let far = output(&format!("plan {robot} --from 59,120 --to 59,131 --mode=+-"));
+    assert_ne!(far.status.code(), Some(0));
+}
+
+/// |det Â| is at most 1, as `--avoid` says.
+#[test]
+fn the_distance_from_parallel_singularities_is_at_most_one() {
+    for name in ["symmetric-6-6", "my-3rpr"] {
+        let robot = case(name);
+        let start = if name == "my-3rpr" { "130,68,0.5" } else { "0,0,1,0,0,0" };
+        let found = json(&format!("ik {robot} --pose {start} --json"));
+        let mode = found["solutions"][0]["mode"].as_str().unwrap().to_owned();
+        let path = format!("{start}\n{start}\n");
+        let run = aspecta(&format!("check-path {robot} - --json --mode={mode}"))
+            .write_stdin(path)
+            .output()
+            .unwrap();
+        let check: Value = serde_json::from_slice(&run.stdout).unwrap();
+        let most = check["clearance"]["parallel"]["at_most"].as_f64().unwrap();
+        assert!(0.0 < most && most <= 1.0, "{name}: {most}");
+    }
+}

@@ -161,10 +161,10 @@ fn margins_are_kept_all_along_or_not() {
         let text = [output.stdout, output.stderr].concat();
         (output.status.code(), String::from_utf8(text).unwrap())
     };
-    let (code, text) = run("0.06,0.28");
+    let (code, text) = run("0.037,0.28");
     assert!(code == Some(0) && text.contains("keeps away        yes, certified all along"), "{text}");
     for (avoid, what) in
-        [("0.061,0.28", "|det Â| falls below its margin"), ("0.06,0.29", "|B₁₁|/max falls below")]
+        [("0.038,0.28", "|det Â| falls below its margin"), ("0.037,0.29", "|B₁₁|/max falls below")]
     {
         let (code, text) = run(avoid);
         assert!(code == Some(1) && text.contains(what), "{text}");

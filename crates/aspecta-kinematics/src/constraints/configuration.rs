@@ -90,7 +90,7 @@ pub fn is_limited(robot: &Robot) -> bool {
     Constraint::of(robot).any(Constraint::is_limit)
 }
 
-/// Whether all limits are strictly kept at a pose, for every mode asked about.
+/// Whether the user's window holds a pose and all limits are strictly kept there, for every mode asked about.
 pub(crate) fn within_limits<const D: usize, const N: usize>(
     robot: &Robot,
     pose: &[f64],
@@ -101,10 +101,12 @@ pub(crate) fn within_limits<const D: usize, const N: usize>(
         let heights: [[f64; 2]; N] = std::array::from_fn(|j| legs[j].heights());
         (placement, legs, heights)
     });
+    let in_window = robot.beyond_window(pose).is_none();
     move |mode| {
-        there.as_ref().is_none_or(|(placement, legs, heights)| {
-            let at = Configuration { robot, placement, legs, heights, mode };
-            at.limits().all(|(_, margin)| margin > 0.0)
-        })
+        in_window
+            && there.as_ref().is_none_or(|(placement, legs, heights)| {
+                let at = Configuration { robot, placement, legs, heights, mode };
+                at.limits().all(|(_, margin)| margin > 0.0)
+            })
     }
 }

@@ -2,20 +2,22 @@
 
 use super::LegAt;
 use super::limit::rod_length;
+use crate::homogeneous::Homogeneous;
 use crate::modal::{LegClosure, ModalRows, closures};
 use crate::placement::Placement;
+use aspecta_robot::Robot;
 use aspecta_robot::WorkingMode;
-use aspecta_robot::num::{Interval, Scalar, dot, each};
-use aspecta_robot::{Platform, Robot};
+use aspecta_robot::num::{Interval, Scalar, each};
 use serde::{Deserialize, Serialize};
 
 /// How far configurations must stay from the singularities. Neither measure has a unit, and neither changes
 /// when the robot is moved, scaled or its legs are renumbered.
 ///
-/// - *parallel*: |det Â| ≥ `parallel`, Â being A with every row divided by the force along its rod and moments by the
-///   [characteristic length](Robot::characteristic_length) (for a platform that only turns, every row by its norm). 0 at a parallel
-///   singularity, at most 1 for platforms that do not turn.
-/// - *serial*: |B_jj| / max |B_jj| ≥ `serial` for every leg j: [`State::serial_measures`](crate::State::serial_measures). 0 at a serial singularity, at most 1.
+/// - *parallel*: |det Â| ≥ `parallel`, Â being A with moments divided by the
+///   [characteristic length](Robot::characteristic_length) (unless the platform only turns) and then every row by its
+///   norm. 0 at a parallel singularity, at most 1.
+/// - *serial*: |B_jj| / max |B_jj| ≥ `serial` for every leg j:
+///   [`State::serial_measures`](crate::State::serial_measures). 0 at a serial singularity, at most 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Margins {
     /// The least |det Â|.
@@ -63,26 +65,11 @@ pub(super) fn unit_of_det<T: Scalar, const D: usize, const N: usize>(
     rows: &ModalRows<T, N>,
     mode: WorkingMode,
 ) -> T {
-    let mut unit = T::constant(unit_of_moments(robot));
-    for (j, at) in legs.iter().enumerate() {
-        let force = if robot.platform == Platform::TurningBody {
-            let row = rows.row(j, mode.sign(j));
-            dot(&row, &row).sqrt()
-        } else {
-            rod_length(&LegAt::of(&robot.legs[j], at))
-        };
-        unit = unit * force;
-    }
-    unit
-}
-
-/// Returns the divisor of det A for the moments in it, of a robot whose rods bear unit forces: the
-/// characteristic length once for each angle, unless the platform only turns.
-pub fn unit_of_moments(robot: &Robot) -> Interval {
-    let turning = robot.platform == Platform::TurningBody;
-    let angles = robot.platform.coordinates().iter().filter(|c| c.angle).count();
-    let length = Interval::point(robot.characteristic_length());
-    (0..if turning { 0 } else { angles }).fold(Interval::point(1.0), |unit, _| unit * length)
+    let homogeneous = Homogeneous::of(robot);
+    let norm =
+        |(j, at)| homogeneous.norm(rod_length(&LegAt::of(&robot.legs[j], at)), &rows.row(j, mode.sign(j)));
+    let unit = T::constant(homogeneous.unit_of_moments());
+    legs.iter().enumerate().map(norm).fold(unit, |unit, norm| unit * norm)
 }
 
 #[cfg(test)]
@@ -124,8 +111,9 @@ mod tests {
                 for solution in robot.inverse(&pose).unwrap() {
                     let (parallel, serial) = measured(&robot, &pose, solution.mode);
                     let state = robot.state(&pose, &solution.q).unwrap();
-                    let exact = crate::singularity::homogeneous(&robot, &state.a).determinant();
+                    let exact = Homogeneous::of(&robot).matrix(&state.a).determinant();
                     assert!((parallel - exact).abs() < 1e-7, "{}: {parallel} {exact}", robot.name);
+                    assert!(exact.abs() <= 1.0 + 1e-12, "{}: {exact}", robot.name);
                     for (a, b) in serial.iter().zip(&state.serial_measures) {
                         assert!(
                             (a - b).abs() < 1e-6,

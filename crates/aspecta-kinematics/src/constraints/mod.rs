@@ -6,19 +6,21 @@
 //! postures is told by [`Constraint::postures`].
 //!
 //! The ends of a window that cuts the workspace are no constraints of the robot: they are functions of one
-//! coordinate, the same in all modes, and change with the question that is asked. Where P is formed and where
-//! boundaries are drawn they stand beside this list.
+//! coordinate, the same in all modes, and change with the question that is asked. Where P is formed, where
+//! boundaries are drawn and where solutions and paths are told to be within limits they stand beside this list.
 
 mod configuration;
 mod demand;
 mod limit;
 mod margins;
+mod window;
 
 pub(crate) use configuration::within_limits;
 pub use configuration::{Configuration, is_limited};
 pub use demand::{Constraints, Demand};
 pub use limit::{LegAt, margin, unit};
-pub use margins::{Margins, measures, unit_of_moments};
+pub use margins::{Margins, measures};
+pub(crate) use window::window_margins;
 
 pub use aspecta_robot::constraint::{Constraint, Kind, Scale, constraint, if_any};
 

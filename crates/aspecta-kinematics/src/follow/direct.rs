@@ -60,7 +60,7 @@ pub struct Step {
     /// Whether it is proved that no B_jj vanishes along the step either. Then the configuration stayed in its generalized
     /// aspect; else a leg may have met a serial singularity, which is no error here.
     pub mode_kept: bool,
-    /// Whether every joint is within its limits at the end. Numerical.
+    /// Whether, at the end, every joint is within its limits and the pose in the robot's window. Numerical.
     pub within_limits: bool,
     /// A proved bound of the error of each translation of `pose`, in the robot's unit.
     pub length_error: f64,

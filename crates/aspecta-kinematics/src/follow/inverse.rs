@@ -43,7 +43,7 @@ pub struct JointStep {
     /// Whether it is proved that det A does not vanish along the step either: the configuration stayed in its
     /// generalized aspect. Else the path may have met a parallel singularity.
     pub regular: bool,
-    /// Whether every joint is within its limits at the end. Numerical.
+    /// Whether, at the end, every joint is within its limits and the pose in the robot's window. Numerical.
     pub within_limits: bool,
     /// Stretches that were tried: 1 where the step was proved at once.
     pub stretches: u32,

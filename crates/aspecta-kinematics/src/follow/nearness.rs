@@ -2,6 +2,7 @@
 
 use super::refusal::Refusal;
 use super::tube::{Located, Model, Proof, plain};
+use crate::homogeneous::Homogeneous;
 use crate::placement::{Placement, determinant, leg_gradient_turned, moved};
 use aspecta_robot::WorkingMode;
 use nalgebra::SVector;
@@ -43,9 +44,10 @@ impl<const D: usize, const N: usize> Model<'_, D, N> {
     /// The smallest singular value of the homogeneous A, as 1 / ‖A⁻¹‖₂ by the power method.
     fn parallel_measure(&self, at: &Located<N>) -> f64 {
         let (_, mut a) = self.linearised(&at.pose, &at.q, &plain(&self.turns(&at.q)));
+        let homogeneous = Homogeneous::of(self.robot);
         for j in 0..N {
             let mut row: [f64; N] = std::array::from_fn(|k| a[(j, k)]);
-            crate::make_homogeneous(self.robot, &mut row);
+            homogeneous.scale(&mut row);
             (0..N).for_each(|k| a[(j, k)] = row[k]);
         }
         let Some(inverse) = a.try_inverse() else { return 0.0 };

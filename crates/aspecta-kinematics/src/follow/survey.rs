@@ -4,13 +4,13 @@ use super::direct::{Follower, check_joints};
 use super::on_the_way::OnTheWay;
 use super::tube::{Model, Stretch};
 use super::{Refusal, unpadded};
-use crate::constraints::{Configuration, Constraint, unit_of_moments};
+use crate::constraints::{Configuration, Constraint, window_margins};
+use crate::homogeneous::Homogeneous;
 use crate::modal::{Folded, LegClosure};
 use crate::placement::{determinant, wrench};
 use crate::{WorkingMode, for_platform};
-use aspecta_robot::Platform;
 use aspecta_robot::legs::Closure;
-use aspecta_robot::num::{Ball, Interval, Scalar, Slope, dot, padded};
+use aspecta_robot::num::{Ball, Interval, Scalar, Slope, padded};
 
 /// Enclosures of what the robot meets on one certified stretch of joint vectors: they hold the values at
 /// every configuration of the solution curve. Whatever `det_a` may hold, det A does not vanish: that is what
@@ -25,6 +25,8 @@ pub struct Survey {
     pub serial: Vec<Interval>,
     /// The limits and what is > 0 strictly within each.
     pub limits: Vec<(Constraint, Interval)>,
+    /// The coordinates that the user's window cuts, and what is > 0 strictly within each.
+    pub window: Vec<(usize, Interval)>,
     /// The working mode at the end. Proved if no enclosure of `serial` holds 0, else numerical.
     pub mode: WorkingMode,
 }
@@ -68,7 +70,8 @@ impl<const D: usize, const N: usize> Model<'_, D, N> {
         let robot = self.robot;
         let (placement, _) = self.placements::<Over>(stretch);
         let mut rows = [[Over::zero(); N]; N];
-        let mut unit = Over::constant(unit_of_moments(robot));
+        let homogeneous = Homogeneous::of(robot);
+        let mut unit = Over::constant(homogeneous.unit_of_moments());
         let mut serial = Vec::with_capacity(N);
         let zero = [Over::zero(); D];
         let open = Closure { reach: Over::zero(), weight: Over::zero(), fixed: zero, swing: zero };
@@ -77,14 +80,7 @@ impl<const D: usize, const N: usize> Model<'_, D, N> {
         for (j, leg) in robot.legs.iter().enumerate().take(N) {
             let over = stretch.leg(leg, j, &placement);
             rows[j] = wrench(robot.platform, &over.gradient, &over.arm);
-            unit = unit
-                * match robot.platform {
-                    Platform::TurningBody => norm(&rows[j]),
-                    Platform::PlanePoint
-                    | Platform::PlaneBody
-                    | Platform::TranslatingBody
-                    | Platform::FreeBody => leg.actuator.force(&over.gradient),
-                };
+            unit = unit * homogeneous.norm(leg.actuator.force(&over.gradient), &rows[j]);
             let sh = leg.actuator.signed_height(over.slope);
             serial.push(match leg.actuator.greatest_reach() {
                 Some(most) => range(sh) / most.sqrt(),
@@ -99,13 +95,10 @@ impl<const D: usize, const N: usize> Model<'_, D, N> {
         let mode = WorkingMode::from_signs([]);
         let at = Configuration { robot, placement: &placement, legs: &legs, heights: &heights, mode };
         let limits = at.limits().map(|(constraint, margin)| (constraint, range(margin))).collect();
+        let window = window_margins(robot, &placement).into_iter().map(|(k, x)| (k, range(x))).collect();
         let det: Over = determinant(&rows);
-        Survey { det_a: range(det), parallel: range(det / unit), serial, limits, mode }
+        Survey { det_a: range(det), parallel: range(det / unit), serial, limits, window, mode }
     }
-}
-
-fn norm<const K: usize>(v: &[Over; K]) -> Over {
-    dot(v, v).sqrt()
 }
 
 fn range(x: Over) -> Interval {

@@ -11,8 +11,8 @@ use aspecta_robot::Robot;
 use aspecta_robot::num::turned_to;
 
 pub use check::{
-    Asked, Clearance, Joined, Least, Obstacle, PathCheck, PathError, PathOptions, ProfilePoint, check_joints,
-    check_path, check_poses,
+    Asked, Bound, Clearance, Joined, Least, Obstacle, PathCheck, PathError, PathOptions, ProfilePoint,
+    check_joints, check_path, check_poses,
 };
 pub use text::PathSummary;
 

@@ -1,7 +1,7 @@
 //! A checked path for people.
 
-use super::{Asked, Joined, Least, Obstacle, PathCheck};
-use crate::constraints::Kind;
+use super::{Asked, Bound, Joined, Least, Obstacle, PathCheck};
+use crate::constraints::{Constraint, Kind, is_limited};
 use aspecta_robot::Robot;
 use aspecta_robot::text::{Labels, det_a_unit, number, subscript, unsigned};
 use std::fmt::{self, Write};
@@ -88,16 +88,23 @@ impl PathCheck {
 impl Obstacle {
     /// Returns a description of what fails, on a path of this robot.
     pub fn in_words(&self, robot: &Robot) -> String {
-        let what = match self.constraint.kind() {
+        let what = match self.bound {
+            Bound::Constraint(constraint) => self.beyond(constraint, robot),
+            Bound::Window { coordinate } => format!("{coordinate} is beyond the robot's window"),
+        };
+        if self.proved { what } else { format!("not excluded: {what}") }
+    }
+
+    fn beyond(&self, constraint: Constraint, robot: &Robot) -> String {
+        match constraint.kind() {
             Kind::Parallel if self.asked == Asked::Margin => "|det Â| falls below its margin".to_owned(),
             Kind::Serial(j) if self.asked == Asked::Margin => {
                 format!("|B{0}{0}|/max falls below its margin", subscript(j.number()))
             }
             Kind::Parallel => "det A vanishes or changes sign (parallel singularity)".to_owned(),
             Kind::Serial(j) => format!("leg {j} is stretched or folded (serial singularity)"),
-            Kind::Limit => format!("beyond the {}", self.constraint.named(robot)),
-        };
-        if self.proved { what } else { format!("not excluded: {what}") }
+            Kind::Limit => format!("beyond the {}", constraint.named(robot)),
+        }
     }
 }
 
@@ -120,7 +127,8 @@ fn verdicts(out: &mut dyn Write, check: &PathCheck) -> fmt::Result {
         let asked = format!("|det Â| ≥ {} and every |B_jj|/max ≥ {}", margins.parallel, margins.serial);
         writeln!(out, "keeps away        {keeps}: {asked}")?;
     }
-    let unlimited = check.robot.legs.iter().all(|leg| leg.limits.is_empty());
+    let robot = &check.robot;
+    let unlimited = !is_limited(robot) && (0..robot.dof()).all(|k| robot.window_range(k).is_none());
     let within = match check.within_limits {
         Some(true) if unlimited => "yes (the robot has no limits)".into(),
         answer => proved(answer, ""),

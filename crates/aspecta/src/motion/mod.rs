@@ -12,8 +12,8 @@ pub mod traverse;
 
 pub use aspecta_kinematics::follow;
 pub use aspecta_kinematics::path::{
-    Asked, Clearance, Joined, Least, Obstacle, PathCheck, PathError, PathOptions, ProfilePoint, check_joints,
-    check_path, check_poses, time,
+    Asked, Bound, Clearance, Joined, Least, Obstacle, PathCheck, PathError, PathOptions, ProfilePoint,
+    check_joints, check_path, check_poses, time,
 };
 
 /// a + t (b − a).

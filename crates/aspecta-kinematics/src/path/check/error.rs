@@ -35,14 +35,12 @@ pub enum PathError {
         known: String,
     },
     /// Margins that no configuration keeps.
-    #[error("{of} cannot be kept at or above {}: margins are at least 0 (none) and below {below}", written(*.value))]
+    #[error("{of} cannot be kept at or above {}: margins are at least 0 (none) and below 1", written(*.value))]
     Margin {
         /// The margin asked for.
         value: f64,
         /// The quantity.
         of: &'static str,
-        /// The bound that it has to stay below.
-        below: &'static str,
     },
     /// The first pose is out of reach.
     #[error("the path starts out of reach: leg {leg} cannot close at pose 1")]

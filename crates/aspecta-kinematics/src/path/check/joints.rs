@@ -2,7 +2,7 @@
 
 use super::clearance::{Measures, Place, Stretch, clearance, modulus};
 use super::profile::{self, ProfilePoint};
-use super::{Asked, EFFORT, Joined, Obstacle, PathCheck, PathError, PathOptions, join};
+use super::{Asked, Bound, EFFORT, Joined, Obstacle, PathCheck, PathError, PathOptions, join};
 use crate::Kinematics;
 use crate::constraints::{Constraint, is_limited};
 use crate::follow::{BadInput, Follower, Refusal, Survey};
@@ -162,7 +162,7 @@ impl<'a> Walk<'a> {
         if sign == 0.0 || signs.contains(&0.0) {
             return Err(PathError::StartSingular);
         }
-        let limited = is_limited(follower.robot());
+        let limited = is_limited(follower.robot()) || !here.window.is_empty();
         let asked =
             [(Asked::Regular, true), (Asked::Margin, options.margins.are_any()), (Asked::Limit, limited)];
         let verdicts = Default::default();
@@ -229,20 +229,26 @@ impl<'a> Walk<'a> {
     }
 
     /// Returns the functions that are > 0 where the demand on a stretch is met.
-    fn demands(&self, asked: Asked, survey: &Survey) -> Vec<(Constraint, Interval)> {
+    fn demands(&self, asked: Asked, survey: &Survey) -> Vec<(Bound, Interval)> {
         let margins = if asked == Asked::Margin { self.options.margins } else { Default::default() };
         if asked == Asked::Limit {
-            return survey.limits.clone();
+            let coordinates = self.follower.robot().platform.coordinates();
+            let window = |&(k, x): &(usize, Interval)| (Bound::Window { coordinate: coordinates[k].name }, x);
+            let limits = survey.limits.iter().map(|&(constraint, x)| (Bound::Constraint(constraint), x));
+            return limits.chain(survey.window.iter().map(window)).collect();
         }
         let signed =
             |x: Interval, sign: f64, margin: f64| x * Interval::point(sign) - Interval::point(margin);
-        let reach = survey.serial.iter().zip(&self.signs).enumerate();
-        let mut all: Vec<_> = reach
-            .map(|(j, (b, sign))| (Constraint::Reach(LegIndex::new(j)), signed(*b, *sign, margins.serial)))
-            .collect();
+        let reach = |j| Bound::Constraint(Constraint::Reach(LegIndex::new(j)));
+        let legs = survey.serial.iter().zip(&self.signs).enumerate();
+        let mut all: Vec<_> =
+            legs.map(|(j, (b, sign))| (reach(j), signed(*b, *sign, margins.serial))).collect();
         // That det A does not vanish is proved already.
         if margins.parallel > 0.0 {
-            all.push((Constraint::Det, signed(survey.parallel, self.sign, margins.parallel)));
+            all.push((
+                Bound::Constraint(Constraint::Det),
+                signed(survey.parallel, self.sign, margins.parallel),
+            ));
         }
         all
     }
@@ -265,18 +271,12 @@ impl<'a> Walk<'a> {
         for (i, asked) in self.pending() {
             let demands = self.demands(asked, survey);
             let failed = demands.iter().find(|(_, x)| x.is_negative());
-            let Some((constraint, x)) = failed.or_else(|| demands.iter().find(|(_, x)| x.sign() == 0)) else {
+            let Some((bound, x)) = failed.or_else(|| demands.iter().find(|(_, x)| x.sign() == 0)) else {
                 continue;
             };
             let (segment, pose) = (k + 1, self.follower.pose().to_vec());
-            let here = Obstacle {
-                asked,
-                segment,
-                t: (from, to),
-                pose,
-                constraint: *constraint,
-                proved: x.is_negative(),
-            };
+            let (t, bound, proved) = ((from, to), *bound, x.is_negative());
+            let here = Obstacle { asked, segment, t, pose, bound, proved };
             let verdict = &mut self.verdicts[i];
             match &verdict.doubt {
                 // It may begin at the doubt before it.
@@ -300,7 +300,8 @@ impl<'a> Walk<'a> {
         let pose = self.follower.pose().to_vec();
         for (i, asked) in self.pending() {
             let t = (from, end.clamp(to, 1.0));
-            let here = Obstacle { asked, segment: k + 1, t, pose: pose.clone(), constraint, proved: false };
+            let (pose, bound) = (pose.clone(), Bound::Constraint(constraint));
+            let here = Obstacle { asked, segment: k + 1, t, pose, bound, proved: false };
             self.verdicts[i].doubt.get_or_insert(here);
         }
     }

@@ -7,16 +7,19 @@ mod clearance;
 mod error;
 mod join;
 mod joints;
+mod obstacle;
 mod profile;
+mod window;
 
 pub use clearance::{Clearance, Least};
 pub use error::PathError;
 pub use join::Joined;
 pub use joints::check_joints;
+pub use obstacle::{Asked, Bound, Obstacle};
 pub use profile::ProfilePoint;
 
 use crate::Kinematics;
-use crate::constraints::{self, Constraint, Demand, Kind, Margins, is_limited};
+use crate::constraints::{Demand, Margins, is_limited};
 use crate::path::curve::{Along, Curve, along};
 use crate::path::units;
 use aspecta_robot::{LegIndex, Robot, WorkingMode};
@@ -57,7 +60,7 @@ pub struct PathCheck {
     pub singularity_free: Option<bool>,
     /// Whether it is proved to keep the margins asked for. `Some(true)` if none are; `None` also where a singularity comes first.
     pub keeps_margins: Option<bool>,
-    /// Whether it stays within joint limits, likewise; `Some(true)` if the robot has none.
+    /// Whether it stays within joint limits and the robot's window, likewise; `Some(true)` if it has none.
     pub within_limits: Option<bool>,
     /// The margins asked for.
     pub margins: Margins,
@@ -86,7 +89,7 @@ impl PathCheck {
         let [singularity_free, keeps_margins, within_limits] = [0, 1, 2].map(|k| verdict(&found[k]));
         let own = found.into_iter().flatten().filter(|o| o.is_of_its_own(&options.margins));
         let mut further: Vec<_> = own.collect();
-        further.sort_by(|a, b| a.segment.cmp(&b.segment).then(a.t.0.total_cmp(&b.t.0)));
+        further.sort_by(Obstacle::by_place);
         let obstacle = if further.is_empty() { None } else { Some(further.remove(0)) };
         Self {
             robot: robot.clone(),
@@ -113,59 +116,14 @@ impl PathCheck {
     }
 }
 
-/// A demand on every configuration of a path.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Asked {
-    /// To be in reach and not singular.
-    Regular,
-    /// To keep the margins from singularities.
-    Margin,
-    /// To be within joint limits.
-    Limit,
-}
-
-/// The place where a path fails, or is in doubt.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Obstacle {
-    /// The demand that fails.
-    pub asked: Asked,
-    /// Segment, from 1 (the sample, where samples are not joined).
-    pub segment: usize,
-    /// Start and end of the stretch, t ∈ [0, 1] along the segment.
-    pub t: (f64, f64),
-    /// Pose at the middle of the stretch; of joint vectors, at its start.
-    pub pose: Vec<f64>,
-    /// The constraint that fails; in JSON `{"kind": "det A"}`, `{"kind": "reach", "leg"}` or `{"kind":
-    /// "limit", "leg", "limit"}`, counted from 1.
-    #[serde(serialize_with = "constraints::constraint")]
-    pub constraint: Constraint,
-    /// Whether the failure is proved (else undecided).
-    pub proved: bool,
-}
-
-impl Obstacle {
-    /// Whether what fails is what was asked, and not that nobody can tell beyond a singularity.
-    fn is_of_its_own(&self, margins: &Margins) -> bool {
-        match (self.asked, self.constraint.kind()) {
-            (Asked::Regular, _) | (Asked::Limit, Kind::Limit) => true,
-            (Asked::Margin, Kind::Parallel) => margins.parallel > 0.0,
-            (Asked::Margin, Kind::Serial(_)) => margins.serial > 0.0,
-            (Asked::Margin, Kind::Limit) | (Asked::Limit, Kind::Parallel | Kind::Serial(_)) => false,
-        }
-    }
-}
-
 impl PathOptions {
     fn check(&self) -> Result<(), PathError> {
         let Margins { parallel, serial } = self.margins;
-        if !(0.0..f64::INFINITY).contains(&parallel) {
-            return Err(PathError::Margin { value: parallel, of: "|det Â|", below: "infinity" });
+        let asked = [(parallel, "|det Â|"), (serial, "|B_jj| / max")];
+        match asked.into_iter().find(|(value, _)| !(0.0..1.0).contains(value)) {
+            Some((value, of)) => Err(PathError::Margin { value, of }),
+            None => Ok(()),
         }
-        if !(0.0..1.0).contains(&serial) {
-            return Err(PathError::Margin { value: serial, of: "|B_jj| / max", below: "1" });
-        }
-        Ok(())
     }
 }
 
@@ -236,6 +194,8 @@ pub fn check_poses(
     let near = margins.are_any().then(|| found(Demand { margins, ..regular }, Asked::Margin)).flatten();
     let limits = Demand { limits: true, ..regular };
     let limit = is_limited(robot).then(|| found(limits, Asked::Limit)).flatten();
+    let window = window::first_beyond(robot, poses, &curves, joined);
+    let limit = limit.into_iter().chain(window).min_by(Obstacle::by_place);
 
     let walked = singular.as_ref().map_or(curves.len(), |o| o.segment);
     let until = |k: usize| match &singular {
@@ -306,6 +266,13 @@ fn first_obstacle(
             Along::Undecided { constraint, from, to } => (constraint, from, to, false),
         };
         let pose = curve.at(0.5 * (from + to))[..robot.dof()].to_vec();
-        Some(Obstacle { asked, segment: k + 1, t: (from, to), pose, constraint, proved })
+        Some(Obstacle {
+            asked,
+            segment: k + 1,
+            t: (from, to),
+            pose,
+            bound: Bound::Constraint(constraint),
+            proved,
+        })
     })
 }

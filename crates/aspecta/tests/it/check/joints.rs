@@ -4,8 +4,8 @@ use super::{clearance_holds, minima, mode, options, robot, robots, samples};
 use crate::random::Random;
 use aspecta::Kinematics;
 use aspecta::kinematics::constraints::Constraint;
-use aspecta::motion::{Asked, Joined, PathOptions, check_joints, check_path, check_poses};
-use aspecta::robot::LegIndex;
+use aspecta::motion::{Asked, Bound, Joined, PathOptions, check_joints, check_path, check_poses};
+use aspecta::robot::{LegIndex, Robot};
 
 /// How far apart two poses are, angles as numbers.
 fn apart(a: &[f64], b: &[f64]) -> f64 {
@@ -71,8 +71,8 @@ fn a_serial_singularity_does_not_stop_joints() {
     assert_eq!(check.singularity_free, Some(false));
     let obstacle = check.obstacle.unwrap();
     assert_eq!(
-        (obstacle.asked, obstacle.constraint, obstacle.proved),
-        (Asked::Regular, Constraint::Reach(LegIndex::new(1)), true)
+        (obstacle.asked, obstacle.bound, obstacle.proved),
+        (Asked::Regular, Bound::Constraint(Constraint::Reach(LegIndex::new(1))), true)
     );
     assert!(obstacle.t.0 <= 0.5 && 0.5 <= obstacle.t.1 && obstacle.t.1 - obstacle.t.0 < 1e-6, "{obstacle:?}");
     assert!(check.end_poses[1].is_some());
@@ -114,11 +114,45 @@ fn limits_are_met_where_the_joints_are_told_to_go() {
         assert_eq!(check.within_limits, Some(false));
         let mut obstacles = check.obstacle.iter().chain(&check.further);
         let met = obstacles.find(|o| o.asked == Asked::Limit).unwrap();
-        assert!(met.proved && met.constraint == Constraint::Limit(LegIndex::new(1), 0), "{met:?}");
+        assert!(
+            met.proved && met.bound == Bound::Constraint(Constraint::Limit(LegIndex::new(1), 0)),
+            "{met:?}"
+        );
         assert!(
             met.t.0 <= expected && expected <= met.t.1 && met.t.1 - met.t.0 < 1e-6,
             "{expected}: {met:?}"
         );
+    }
+}
+
+/// Nobody gives the poses of a path of joint vectors: where they leave the window is enclosed.
+#[test]
+fn a_window_is_left_where_the_pose_crosses_it() {
+    for (name, pose, k) in [
+        ("3-rrr", &[-15.468, 0.781, 0.073][..], 2),
+        ("five-bar", &[4.0, 7.0], 1),
+        ("spherical-3-rrr", &[0.1, 0.1, 0.1], 2),
+        ("gough-stewart", &[0.0, 0.0, 1.0, 0.0, 0.0, 0.0], 3),
+    ] {
+        let mut robot = robot(name);
+        robot.legs.iter_mut().for_each(|leg| leg.limits.clear());
+        let Some(solution) = robot.inverse(pose).unwrap().into_iter().next() else { panic!("{name}") };
+        let mut joints = [solution.q.clone(), solution.q];
+        joints[1].iter_mut().zip([0.1, -0.08, 0.05, -0.06, 0.07, -0.03]).for_each(|(q, more)| *q += more);
+        let check =
+            |robot: &Robot| check_joints(robot, &joints, Some(pose), &PathOptions::default()).unwrap();
+        let free = check(&robot);
+        let samples: Vec<(f64, f64)> = free.profile.iter().map(|p| (p.t, p.pose[k])).collect();
+        let (start, middle) = (samples[0].1, samples[samples.len() / 2]);
+        assert!((middle.1 - start).abs() > 1e-3, "{name}");
+        // Everything up to the middle, and far on the other side.
+        let other = start - 1.4 * (middle.1 - start).signum();
+        robot.window[k] = Some((middle.1.min(other), middle.1.max(other)));
+        let met = check(&robot);
+        assert_eq!(met.within_limits, Some(false), "{name}");
+        let left = met.obstacle.iter().chain(&met.further).find(|o| o.asked == Asked::Limit).unwrap();
+        assert!(matches!(left.bound, Bound::Window { .. }) && left.proved, "{name}: {left:?}");
+        assert!(left.t.0 - 1e-6 <= middle.0 && middle.0 <= left.t.1 + 1e-6, "{name}: {middle:?} {left:?}");
     }
 }
 

@@ -68,10 +68,11 @@ pub fn measured(robot: &Robot, check: &PathCheck) -> Vec<Vec<f64>> {
 fn unit_of_det(robot: &Robot, a: &[Vec<f64>]) -> f64 {
     let coordinates = robot.platform.coordinates();
     let lengths = coordinates.iter().filter(|c| !c.angle).count();
-    let forces = if lengths == 0 { coordinates.len() } else { lengths };
-    let norm = |row: &Vec<f64>| row[..forces].iter().map(|x| x * x).sum::<f64>().sqrt();
-    let moments = if lengths == 0 { 0 } else { coordinates.len() - lengths };
-    a.iter().map(norm).product::<f64>() * robot.characteristic_length().powi(moments as i32)
+    let length = if lengths == 0 { 1.0 } else { robot.characteristic_length() };
+    let unit = |k: usize| if coordinates[k].angle { length } else { 1.0 };
+    let norm =
+        |row: &Vec<f64>| row.iter().enumerate().map(|(k, x)| (x / unit(k)).powi(2)).sum::<f64>().sqrt();
+    a.iter().map(norm).product::<f64>() * length.powi((coordinates.len() - lengths) as i32)
 }
 
 /// The minima of a check, in the order of [`measured`].

@@ -4,8 +4,9 @@ use super::{clearance_holds, mode, options, robot, robots, samples};
 use crate::random::Random;
 use aspecta::Kinematics;
 use aspecta::kinematics::constraints::{Constraint, Margins};
-use aspecta::motion::{Asked, Joined, PathCheck, PathError, PathOptions, check_poses};
+use aspecta::motion::{Asked, Bound, Joined, PathCheck, PathError, PathOptions, check_poses};
 use aspecta::robot::{LegIndex, Robot};
+use std::f64::consts::TAU;
 
 /// Brute force: the verdict is what fine sampling shows, as far as that shows anything.
 fn compare(robot: &Robot, check: &PathCheck) {
@@ -78,7 +79,10 @@ fn a_spline_that_dips_between_its_samples_is_refused() {
     let spline = check(Joined::Spline);
     assert_eq!(spline.singularity_free, Some(false));
     let obstacle = spline.obstacle.unwrap();
-    assert!(matches!(obstacle.constraint, Constraint::Reach(_)) && obstacle.proved, "{obstacle:?}");
+    assert!(
+        matches!(obstacle.bound, Bound::Constraint(Constraint::Reach(_))) && obstacle.proved,
+        "{obstacle:?}"
+    );
     let reach =
         obstacle.pose[0].hypot(obstacle.pose[1]).max((obstacle.pose[0] - 9.0).hypot(obstacle.pose[1]));
     assert!((reach - 13.0).abs() < 1e-6, "{obstacle:?}");
@@ -130,8 +134,8 @@ fn a_margin_is_lost_where_the_closed_form_says() {
         let expected = (height - 7.0) / 7.0;
         let obstacle = check.obstacle.as_ref().unwrap();
         assert_eq!(
-            (obstacle.asked, obstacle.constraint),
-            (Asked::Margin, Constraint::Reach(LegIndex::new(1)))
+            (obstacle.asked, obstacle.bound),
+            (Asked::Margin, Bound::Constraint(Constraint::Reach(LegIndex::new(1))))
         );
         assert!(obstacle.proved && (obstacle.t.0 - expected).abs() < 1e-8, "{expected}: {obstacle:?}");
         assert_eq!((check.keeps_margins, check.is_sound()), (Some(false), false));
@@ -154,7 +158,7 @@ fn margins_and_clearance_agree() {
     assert!(with(0.999 * clearance.at_least).is_sound());
     let check = with(1.001 * clearance.at_most);
     let obstacle = check.obstacle.unwrap();
-    assert_eq!((obstacle.asked, obstacle.constraint), (Asked::Margin, Constraint::Det));
+    assert_eq!((obstacle.asked, obstacle.bound), (Asked::Margin, Bound::Constraint(Constraint::Det)));
     assert!(
         obstacle.segment == clearance.segment && (obstacle.t.0 - clearance.t).abs() < 0.1,
         "{obstacle:?}"
@@ -173,4 +177,27 @@ fn what_cannot_be_checked_is_refused() {
     assert!(run(&twice[..1], options(Joined::Spline)).contains("at least two poses"));
     let far = PathOptions { margins: Margins { parallel: 0.0, serial: 1.5 }, ..PathOptions::default() };
     assert!(run(&twice, far).contains("below 1"));
+}
+
+/// An angle leaves its window at a known place, whatever its turn, and a spline where it crosses that.
+#[test]
+fn a_window_is_left_where_the_path_crosses_it() {
+    let mut robot = robot("3-rrr");
+    robot.window[2] = Some((0.0, 0.4));
+    for turn in [0.0, TAU, -TAU] {
+        let poses = [[-15.468, 0.781, 0.073 + turn], [-15.468, -7.091, 0.5 + turn]].map(|p| p.to_vec());
+        let check = check_poses(&robot, &poses, mode("+++"), &PathOptions::default()).unwrap();
+        assert_eq!((check.singularity_free, check.within_limits), (Some(true), Some(false)));
+        let left = check.obstacle.unwrap();
+        let expected = (0.4 - 0.073) / (0.5 - 0.073);
+        assert!(left.proved && left.bound == Bound::Window { coordinate: "phi" }, "{left:?}");
+        assert!((left.t.0 - expected).abs() < 1e-9 && left.t.0 <= left.t.1, "{expected}: {left:?}");
+    }
+    let poses = [[-15.468, 0.781, 0.073], [-15.468, -7.091, 0.4], [-9.902, -7.091, 0.3]].map(|p| p.to_vec());
+    let check = |joined| check_poses(&robot, &poses, mode("+++"), &options(joined)).unwrap();
+    assert!(check(Joined::Straight).is_sound() && check(Joined::None).is_sound());
+    // A spline overshoots.
+    assert_eq!(check(Joined::Spline).within_limits, Some(false));
+    robot.window[2] = Some((0.0, 0.5));
+    assert!(check_poses(&robot, &poses, mode("+++"), &options(Joined::Spline)).unwrap().is_sound());
 }
