@@ -1,7 +1,7 @@
 //! The part of the pose space that holds the whole workspace.
 
 use super::{Leg, Platform, Robot};
-use crate::num::Interval;
+use crate::num::{Interval, padded};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -71,7 +71,10 @@ impl Robot {
     /// # Ok::<(), aspecta_robot::FileError>(())
     /// ```
     pub fn beyond_window(&self, pose: &[f64]) -> Option<usize> {
-        let pose = self.with_level_pitch(pose);
+        if self.window.iter().all(Option::is_none) {
+            return None;
+        }
+        let pose = self.with_level_pitch(padded(pose));
         (0..self.dof()).find(|&k| {
             self.window_range(k).is_some_and(|range| {
                 let x =
@@ -82,8 +85,7 @@ impl Robot {
     }
 
     /// The same pose with a pitch within ±90°.
-    fn with_level_pitch(&self, pose: &[f64]) -> Vec<f64> {
-        let mut pose = pose.to_vec();
+    fn with_level_pitch(&self, mut pose: [f64; 6]) -> [f64; 6] {
         if let Some([roll, pitch, yaw]) = self.platform.turns()
             && pose[pitch].abs() > FRAC_PI_2
         {

@@ -3,6 +3,7 @@
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use tempfile::{Builder, NamedTempFile};
 
 /// Creates a directory if need be and makes sure that files can be written into it: before long work, not
@@ -34,8 +35,17 @@ pub fn put(dir: &Path, name: &str, content: impl AsRef<[u8]>) -> io::Result<Path
     Ok(path)
 }
 
+/// Held while a draft is there.
+static WRITING: Mutex<()> = Mutex::new(());
+
+/// Waits until no file is being written; none is while the guard is held. For programs that are about to end.
+pub fn between_writes() -> MutexGuard<'static, ()> {
+    WRITING.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 /// Puts a regular file in its place at once.
 fn replace(path: &Path, content: &[u8]) -> io::Result<()> {
+    let _writing = between_writes();
     let mut draft = Builder::new();
     // As other programs make files: for all whom the user's mask lets.
     #[cfg(unix)]

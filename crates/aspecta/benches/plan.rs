@@ -69,7 +69,9 @@ fn plan(c: &mut Criterion) {
     let budget = Budget { depth: Some(11), ..Budget::default() };
     let control = Control::unwatched();
     let analysis = analyze(&robot, &Options { budget, ..Options::default() }, &control).expect("bounded");
-    c.bench_function("five-bar/graph of working-mode changes", |b| b.iter(|| ModeGraph::new(&analysis)));
+    c.bench_function("five-bar/graph of working-mode changes", |b| {
+        b.iter(|| ModeGraph::new(&analysis, &Control::unwatched()))
+    });
 }
 
 /// Random pairs of poses of Dietmaier's platform with one sign of det A, over a roadmap that is grown for each; and an exploration.

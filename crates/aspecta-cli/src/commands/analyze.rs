@@ -2,7 +2,7 @@
 
 use crate::args::budget;
 use crate::args::fix::FixArg;
-use crate::args::format::JsonArg;
+use crate::args::format::TableArgs;
 use crate::args::help::help;
 use crate::args::out::OutDir;
 use crate::args::robot::RobotArg;
@@ -28,11 +28,13 @@ use std::path::PathBuf;
     "Print the whole result as JSON, and nothing else, on stdout (angles in radians)"
 )))]
 #[command(mut_args(help("threads", threads::OF_NO_WEIGHT)))]
+#[command(mut_args(help("deg", "Angles of the tables are in degrees; --fix and --json keep to radians")))]
+#[command(after_help = EXIT_STATUS)]
 pub struct Analyze {
     #[command(flatten)]
     robot: RobotArg,
     #[command(flatten)]
-    shown: JsonArg,
+    shown: TableArgs,
     #[command(flatten)]
     out: OutDir,
     /// Write the proof of the count into this file, for `aspecta verify`: of up to 8 working modes (`--mode`)
@@ -62,6 +64,10 @@ const FIX: &str = "\
     Hold a coordinate at a value and analyse that slice: x=-4, phi=0.5 (radians) or phi=30deg; \
     again, or separated by commas, for several. det A stays that of the whole robot";
 
+const EXIT_STATUS: &str = "\
+Exit status: 0 the bounds meet, or boxes are as fine as they were to be; 1 a budget of time or boxes or Ctrl-C ended the run before, with the \
+result so far; 2 bad input.";
+
 /// Where the rows are that the tables leave out.
 const ADVICE: AnalysisAdvice =
     AnalysisAdvice { on_aspects: ": see --json or --out", on_doubts: " (--json lists all)" };
@@ -85,14 +91,14 @@ impl Analyze {
         if analysis.run.stop == Stop::Cancelled {
             note("cancelled: this is the result so far");
         }
-        Ok(Answer::from(analysis.run.stop != Stop::Cancelled))
+        Ok(Answer::from(matches!(analysis.run.stop, Stop::Exact | Stop::Resolution)))
     }
 
     fn print(&self, out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {
-        if self.shown.json {
+        if self.shown.json() {
             output::json(out, analysis)?;
         } else {
-            write!(out, "{}", AnalysisSummary { analysis, advice: ADVICE })?;
+            write!(out, "{}", AnalysisSummary { analysis, degrees: self.shown.deg, advice: ADVICE })?;
         }
         let Some(directory) = self.out.directory() else { return Ok(()) };
         // People see the numbers while the figures are drawn.

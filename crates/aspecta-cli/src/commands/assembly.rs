@@ -7,15 +7,15 @@ use crate::input::{self, Columns};
 use crate::output::{FORMAT_VERSION, Format, Labels, json, note, number};
 use crate::show::numbered::{self, IN_ONE, Numbered, list};
 use crate::show::{joined, motion};
-use crate::work::planning::{Planned, plan_over_roadmap};
+use crate::work::planning::{Planned, plan_over_roadmap, route};
 use aspecta::Kinematics;
 use aspecta::kinematics::{DirectSolutions, WorkingMode};
 use aspecta::motion::assembly::{
     AssemblyMode, AssemblyModes, CuspRound, Fold, assembly_modes, cusps_round, folds,
 };
 use aspecta::motion::explore::join_solutions;
-use aspecta::motion::modes::{Configuration, ModeGraph, NoRoute, Route};
-use aspecta::motion::plan::{Plan, PlanOptions, Planner};
+use aspecta::motion::modes::Configuration;
+use aspecta::motion::plan::{Plan, PlanOptions};
 use aspecta::robot::{Platform, Robot};
 use clap::Args;
 use serde::Serialize;
@@ -109,13 +109,7 @@ impl Assembly {
                 let solution = &modes.solutions[k - 1].solution;
                 Configuration { pose: &solution.pose, mode: solution.mode }
             });
-            let mut planner = Planner::new(analysis);
-            let change = if through {
-                planner.route(&ModeGraph::new(analysis), start, goal, &options)
-            } else {
-                let plan = planner.plan(start.pose, goal.pose, start.mode, &options);
-                plan.map(Route::from).map_err(NoRoute::from)
-            };
+            let change = route(analysis, [start, goal], through, &options, control);
             let change = self.planning.moving.film(&robot, Some(analysis), change);
             let explicable = change.result.as_ref().ok().filter(|_| self.explain && !through);
             let plan = explicable.map(|route| &route.stretches[0]);

@@ -1,5 +1,6 @@
 //! `aspecta cusps`: where three direct solutions meet.
 
+use crate::args::budget;
 use crate::args::fix::FixArg;
 use crate::args::format::TableArgs;
 use crate::args::help::{help, value_name};
@@ -8,15 +9,18 @@ use crate::args::robot::RobotArg;
 use crate::args::threads::{self, Threads};
 use crate::failure::{Answer, Failure};
 use crate::output::{Align, FORMAT_VERSION, Labels, Table, json, note, number};
-use crate::work::watch::watched;
+use crate::work::watch::{watched, within_seconds};
 use aspecta::domain::cusps::{
     self, CurveEnd, Cusp, CuspCurve, CuspCurves, Doubt, Options, Proof, Undecided, cusp_curves, cusps,
 };
+use aspecta::num::Interval;
+use aspecta::paving::Control;
 use aspecta::robot::Robot;
 use aspecta_view::words::count;
 use clap::Args;
 use serde::Serialize;
 use std::io::Write;
+use std::time::Duration;
 
 /// Arguments of `cusps`.
 ///
@@ -35,9 +39,12 @@ pub struct Cusps {
     fix: FixArg,
     #[command(flatten)]
     mode: ModeArg,
-    /// Greatest number of boxes to look at [default: 1000000]; what is left is undecided
+    /// Greatest number of boxes to look at [default: 1000000 for each slice]; what is left is undecided
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     boxes: Option<u64>,
+    /// How long to look, as 30s or 5min: what is left then is undecided
+    #[arg(long, value_name = "TIME", value_parser = budget::parse_time)]
+    budget: Option<Duration>,
     #[command(flatten)]
     shown: TableArgs,
     #[command(flatten)]
@@ -67,24 +74,32 @@ impl Cusps {
         let mode = self.mode.of(&robot)?;
         let options = Options { fix: self.fix.joints(&robot)?, mode, boxes: self.boxes };
         if options.fix.is_empty() && robot.dof() == 3 {
-            let found = watched(self.threads, |control| cusp_curves(&robot, mode, control))??;
+            let found = self.within_budget(|control| cusp_curves(&robot, &options, control))??;
             if self.shown.json() {
                 json(out, &Document { format_version: FORMAT_VERSION, found: &found })?;
             } else {
                 print_curves(out, &robot, &found, self.shown.deg)?;
             }
-            return Ok(Answer::from(!found.curves.is_empty()));
+            if found.stopped {
+                note("stopped: this is the result so far");
+            }
+            return Ok(Answer::from(!found.curves.is_empty() && !found.stopped));
         }
-        let found = watched(self.threads, |control| cusps(&robot, &options, control))??;
+        let found = self.within_budget(|control| cusps(&robot, &options, control))??;
         if self.shown.json() {
             json(out, &Document { format_version: FORMAT_VERSION, found: &found })?;
         } else {
             print(out, &robot, &found, self.shown.deg)?;
         }
         if found.undecided.iter().any(|u| u.why == Doubt::Cancelled) {
-            note("cancelled: this is the result so far");
+            note("stopped: this is the result so far");
         }
         Ok(Answer::from(found.complete && !found.cusps.is_empty()))
+    }
+
+    fn within_budget<T>(&self, work: impl FnOnce(&Control<'_>) -> T) -> Result<T, Failure> {
+        let seconds = self.budget.map(|time| time.as_secs_f64());
+        watched(self.threads, |control| within_seconds(seconds, control, work))
     }
 }
 
@@ -109,16 +124,30 @@ fn print(out: &mut dyn Write, robot: &Robot, found: &cusps::Cusps, degrees: bool
     Ok(())
 }
 
-/// Returns the undecided boxes, each with the modes it is undecided in: a budget that is spent leaves the
-/// same box in many.
+/// Undecided boxes of one mode and one reason that are told one by one; more are told together.
+const FEW: usize = 3;
+
+/// Returns the undecided boxes, or what holds many of them, each with the modes it is undecided in: a budget that is
+/// spent leaves the same in many.
 fn undecided(robot: &Robot, boxes: &[Undecided], degrees: bool) -> Vec<(Vec<String>, String)> {
     let mut all: Vec<(Vec<String>, String)> = Vec::new();
+    let mut clusters: Vec<Vec<&Undecided>> = Vec::new();
     for u in boxes {
-        let (mode, what) = (u.mode.to_string(), format!("{}: {}", place(robot, u, degrees), reason(u.why)));
-        match all.iter_mut().find(|(_, known)| *known == what) {
-            Some((modes, _)) if modes.contains(&mode) => {}
-            Some((modes, _)) => modes.push(mode),
-            None => all.push((vec![mode], what)),
+        match clusters.iter_mut().find(|cluster| (cluster[0].mode, cluster[0].why) == (u.mode, u.why)) {
+            Some(cluster) => cluster.push(u),
+            None => clusters.push(vec![u]),
+        }
+    }
+    for cluster in &clusters {
+        let told = if cluster.len() > FEW { vec![&cluster[..]] } else { cluster.chunks(1).collect() };
+        for some in told {
+            let (mode, place) = (some[0].mode.to_string(), place(robot, some, degrees));
+            let many = if some.len() > 1 { format!("{} boxes, ", some.len()) } else { String::new() };
+            let what = format!("{many}{place}: {}", reason(some[0].why));
+            match all.iter_mut().find(|(_, known)| *known == what) {
+                Some((modes, _)) => modes.push(mode),
+                None => all.push((vec![mode], what)),
+            }
         }
     }
     all
@@ -195,13 +224,14 @@ fn end_name(end: CurveEnd) -> &'static str {
     }
 }
 
-/// The box, from its least to its greatest coordinates.
-fn place(robot: &Robot, undecided: &Undecided, degrees: bool) -> String {
+/// What holds all of these boxes, from its least to its greatest coordinates.
+fn place(robot: &Robot, boxes: &[&Undecided], degrees: bool) -> String {
     let labels = Labels::pose(robot, degrees);
-    let bounds = |end: fn(&aspecta::num::Interval) -> f64| -> Vec<f64> {
-        undecided.enclosure.iter().map(end).collect()
+    let bounds = |end: fn(&Interval) -> f64, pick: fn(f64, f64) -> f64| -> Vec<f64> {
+        let ends = |k: usize| boxes.iter().map(|u| end(&u.enclosure[k])).reduce(pick).unwrap_or(f64::NAN);
+        (0..robot.dof()).map(ends).collect()
     };
-    let (lo, hi) = (bounds(|e| e.lo), bounds(|e| e.hi));
+    let (lo, hi) = (bounds(|e| e.lo, f64::min), bounds(|e| e.hi, f64::max));
     format!("from {} to {}", labels.sentence(&lo), labels.sentence(&hi))
 }
 
@@ -212,6 +242,6 @@ fn reason(why: Doubt) -> String {
         Doubt::Rank => "A all but loses two ranks".into(),
         Doubt::Degenerate => "a degenerate cusp, or several that cannot be told apart".into(),
         Doubt::Boxes => "the budget of boxes was spent (--boxes)".into(),
-        Doubt::Cancelled => "cancelled".into(),
+        Doubt::Cancelled => "it was stopped, or its time was over".into(),
     }
 }

@@ -6,7 +6,7 @@ use crate::args::out::OutDir;
 use crate::args::planning::Analysing;
 use crate::args::robot::RobotArg;
 use crate::failure::{Answer, Failure};
-use crate::output::{Align, FORMAT_VERSION, Labels, Table, brief, json};
+use crate::output::{Align, FORMAT_VERSION, Labels, Table, brief, json, note};
 use crate::show::groups::AS_FAR;
 use aspecta::aspect::{AspectId, Count};
 use aspecta::motion::modes::ModeGraph;
@@ -40,7 +40,7 @@ const EXAMPLES: &str = "\
 Example: aspecta modes five-bar
 A crossing is proved by intervals: det A keeps its sign while the leg goes through its serial singularity. Aspects of different signs of
 det A are never joined, which is proved too; that there are no other crossings is not.
-Exit status: 0 done; 2 bad input.";
+Exit status: 0 done; 1 stopped before all crossings were looked for; 2 bad input.";
 
 #[derive(Serialize)]
 struct Document<'a> {
@@ -54,7 +54,8 @@ impl Modes {
     pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
         let robot = self.robot.load()?;
         self.out.check()?;
-        let graph = self.analysing.with(&robot, &[], |analysis, _| Ok(ModeGraph::new(analysis)))?;
+        let graph =
+            self.analysing.with(&robot, &[], |analysis, control| Ok(ModeGraph::new(analysis, control)))?;
         if self.shown.json() {
             json(out, &Document { format_version: FORMAT_VERSION, robot: &robot.name, graph: &graph })?;
         } else {
@@ -66,7 +67,10 @@ impl Modes {
             let written = format!("figure: {}", path.display());
             self.shown.format().say(out, &written)?;
         }
-        Ok(Answer::Yes)
+        if !graph.searched {
+            note("the search for crossings was stopped: there may be more");
+        }
+        Ok(Answer::from(graph.searched))
     }
 }
 

@@ -5,10 +5,10 @@ use crate::args::robot::RobotArg;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
 use crate::show::motion;
-use crate::work::planning::plan_over_roadmap;
+use crate::work::planning::{Planned, plan_over_roadmap, route, straight};
 use aspecta::kinematics::WorkingMode;
-use aspecta::motion::modes::{Configuration, ModeGraph, NoRoute, Route};
-use aspecta::motion::plan::{PlanOptions, Planner};
+use aspecta::motion::modes::Configuration;
+use aspecta::motion::plan::PlanOptions;
 use aspecta::motion::traverse::PoseSet;
 use aspecta::robot::{Platform, Robot};
 use clap::Args;
@@ -67,16 +67,18 @@ impl Plan {
         if let Some(refused) = self.planning.refused(&robot, ends, through, &options)? {
             return motion::print(out, &robot, &refused, &self.planning);
         }
+        // A picture shows the aspect; else a straight way needs none, and of three coordinates aspects take long.
+        if robot.dof() == 3
+            && !through
+            && self.planning.moving.out.directory().is_none()
+            && let Some(plan) = straight(&robot, [&from, &to], mode, &options)
+        {
+            let planned = Planned { result: Ok(plan.into()), page: None };
+            return motion::print(out, &robot, &planned, &self.planning);
+        }
         let modes: &[WorkingMode] = if through { &[] } else { &[mode] };
-        let planned = self.planning.paved(&robot)?.with(&robot, modes, |analysis, _| {
-            let mut planner = Planner::new(analysis);
-            let result = if through {
-                let graph = ModeGraph::new(analysis);
-                planner.route(&graph, ends[0], ends[1], &options)
-            } else {
-                let plan = planner.plan(&from, &to, mode, &options);
-                plan.map(Route::from).map_err(NoRoute::from)
-            };
+        let planned = self.planning.paved(&robot)?.with(&robot, modes, |analysis, control| {
+            let result = route(analysis, ends, through, &options, control);
             Ok(self.planning.moving.film(&robot, Some(analysis), result))
         })?;
         motion::print(out, &robot, &planned, &self.planning)

@@ -8,18 +8,21 @@ use crate::args::planning::Analysing;
 use crate::args::robot::RobotArg;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
-use crate::output::{Align, FORMAT_VERSION, Labels, Table, json};
+use crate::output::{Align, FORMAT_VERSION, Labels, Table, json, note};
 use crate::show::groups::AS_FAR;
 use crate::work::mapping::Source;
+use crate::work::watch::abandoned_if_cancelled;
 use aspecta::aspect::AspectId;
 use aspecta::domain::{Map, RegionId};
 use aspecta::kinematics::constraints::{Constraint, Kind};
 use aspecta::motion::modes::ModeGraph;
 use aspecta::motion::traverse::{ClassHolds, Holds, PoseSet, Traversability, traversability};
+use aspecta::paving::Control;
 use aspecta::robot::Robot;
 use clap::Args;
 use serde::Serialize;
 use std::io::Write;
+use std::sync::Arc;
 
 /// Arguments of `traverse`.
 #[derive(Args)]
@@ -32,6 +35,9 @@ pub struct Traverse {
     robot: RobotArg,
     #[command(flatten)]
     set: Set,
+    /// The radius of --disc or --ball
+    #[arg(long, value_name = "R", allow_negative_numbers = true)]
+    radius: Option<f64>,
     #[command(flatten)]
     mode: ModeArg,
     #[command(flatten)]
@@ -55,6 +61,19 @@ struct Set {
     /// A box of poses: a range lo:hi (or one value) per coordinate, as in 2:6,8:10 or 0:1,0:1,-0.1:0.1
     #[arg(long = "box", value_name = "RANGES", allow_hyphen_values = true)]
     ranges: Option<String>,
+    /// A disc, or with a range of z a cylinder: x and y lie within --radius of those given, the other coordinates in the ranges (or
+    /// at the values) given, as in 0,0,-1100:-900
+    #[arg(
+        long,
+        value_name = "RANGES",
+        visible_alias = "cylinder",
+        allow_hyphen_values = true,
+        requires = "radius"
+    )]
+    disc: Option<String>,
+    /// A ball: x, y and z lie within --radius of those given; angles in the ranges (or at the values) given
+    #[arg(long, value_name = "RANGES", allow_hyphen_values = true, requires = "radius")]
+    ball: Option<String>,
     /// A CSV file of poses to be visited in any order; `-` reads stdin
     #[arg(long, value_name = "CSV")]
     poses: Option<String>,
@@ -67,8 +86,9 @@ const EXAMPLES: &str = "\
 Examples:
   aspecta traverse five-bar --box 2:6,8:10
   aspecta traverse five-bar --box 2:6,8:10 --mode +- --det +
+  aspecta traverse irb-360 --cylinder 0,0,-1100:-900 --radius 400
   aspecta traverse five-bar --poses points.csv --through-modes
-A connected set (a box, a path) that one aspect holds can be traversed on any continuous path in it; separate poses that one aspect
+A connected set (a box, a disc, a cylinder, a ball, a path) that one aspect holds can be traversed on any continuous path in it; separate poses that one aspect
 holds can be visited in any order. Answers are certified unless they say otherwise.
 Exit status: 0 some aspect (or, with --through-modes, some group of aspects) holds the set; 1 none, or undecided; 2 bad input.";
 
@@ -97,15 +117,24 @@ impl Traverse {
                 "--through-modes is about separate poses: give them with --poses".into(),
             ));
         }
-        let set = self.set.read(&robot, self.shown.deg)?;
+        let set = self.set.read(&robot, self.radius, self.shown.deg)?;
         set.check(&robot)?;
         let map = self.map.as_deref().map(|path| read_map(path, &robot)).transpose()?;
         let (mode, det_a) = (self.mode.of(&robot)?, self.det.sign());
         let modes: Vec<_> = mode.into_iter().collect();
-        let mut found = self.analysing.with(&robot, &modes, |analysis, _| {
-            let graph = self.through_modes.then(|| ModeGraph::new(analysis));
-            Ok(traversability(analysis, graph.as_ref(), set)?)
+        let through_modes = self.through_modes;
+        let found = self.analysing.with(&robot, &modes, |analysis, control| {
+            let analysis = Arc::clone(analysis);
+            let look = move || {
+                let graph = through_modes.then(|| ModeGraph::new(&analysis, &Control::unwatched()));
+                traversability(&analysis, graph.as_ref(), set)
+            };
+            Ok(abandoned_if_cancelled(control, look).transpose()?)
         })?;
+        let Some(mut found) = found else {
+            note("stopped before anything was decided");
+            return Ok(Answer::No);
+        };
         let is_asked = |class: &ClassHolds| {
             mode.is_none_or(|mode| class.mode == mode) && det_a.is_none_or(|sign| class.det_a == sign)
         };
@@ -129,21 +158,52 @@ impl Traverse {
 }
 
 impl Set {
-    fn read(&self, robot: &Robot, degrees: bool) -> Result<PoseSet, Failure> {
+    fn read(&self, robot: &Robot, radius: Option<f64>, degrees: bool) -> Result<PoseSet, Failure> {
         let layout = [Columns::pose(robot)];
         let poses = |path: &String| -> Result<Vec<Vec<f64>>, Failure> {
             Ok(input::rows(path, &layout, degrees)?.into_iter().map(|row| row.values).collect())
         };
-        match (&self.ranges, &self.poses) {
-            (Some(text), _) => ranges(robot, text, degrees),
-            (None, Some(path)) => Ok(PoseSet::Poses(poses(path)?)),
-            (None, None) => Ok(PoseSet::Paths(self.path.iter().map(poses).collect::<Result<_, _>>()?)),
+        match self {
+            Self { ranges: Some(text), .. } => Ok(PoseSet::Box(ranges(robot, "--box", text, degrees)?)),
+            Self { disc: Some(text), .. } => round(robot, ("--disc", text), &["x", "y"], radius, degrees),
+            Self { ball: Some(text), .. } => {
+                round(robot, ("--ball", text), &["x", "y", "z"], radius, degrees)
+            }
+            Self { poses: Some(path), .. } => Ok(PoseSet::Poses(poses(path)?)),
+            Self { path, .. } => Ok(PoseSet::Paths(path.iter().map(poses).collect::<Result<_, _>>()?)),
         }
     }
 }
 
+/// A set within a circle or a sphere of some coordinates, of which one value each is given.
+fn round(
+    robot: &Robot,
+    (option, text): (&str, &str),
+    names: &[&str],
+    radius: Option<f64>,
+    degrees: bool,
+) -> Result<PoseSet, Failure> {
+    let ranges = ranges(robot, option, text, degrees)?;
+    let radius = radius.filter(|r| *r > 0.0 && r.is_finite());
+    let radius = radius.ok_or_else(|| Failure::Input("--radius: give a positive number".into()))?;
+    let coordinates = robot.platform.coordinates();
+    let find = |name: &&str| {
+        coordinates.iter().position(|c| c.name == *name).ok_or_else(|| {
+            Failure::Input(format!("{option}: the platform of `{}` has no coordinate {name}", robot.name))
+        })
+    };
+    let round = names.iter().map(find).collect::<Result<Vec<_>, _>>()?;
+    if let Some(&k) = round.iter().find(|&&k| ranges.get(k).is_some_and(|range| range.0 != range.1)) {
+        let name = coordinates[k].name;
+        return Err(Failure::Input(format!(
+            "{option} `{text}`: give one value of {name}, that of the centre"
+        )));
+    }
+    Ok(PoseSet::round(ranges, round, radius))
+}
+
 /// `2:6,8:10`: a range, or a value, per coordinate.
-fn ranges(robot: &Robot, text: &str, degrees: bool) -> Result<PoseSet, Failure> {
+fn ranges(robot: &Robot, option: &str, text: &str, degrees: bool) -> Result<Vec<(f64, f64)>, Failure> {
     let columns = Columns::pose(robot);
     let ends = |upper: bool| -> String {
         let part = |range: &str| {
@@ -152,13 +212,13 @@ fn ranges(robot: &Robot, text: &str, degrees: bool) -> Result<PoseSet, Failure> 
         text.split(',').map(part).collect::<Vec<_>>().join(",")
     };
     let [lo, hi] = [
-        input::list("--box", &ends(false), &columns, degrees)?,
-        input::list("--box", &ends(true), &columns, degrees)?,
+        input::list(option, &ends(false), &columns, degrees)?,
+        input::list(option, &ends(true), &columns, degrees)?,
     ];
     if let Some(k) = (0..lo.len()).find(|&k| lo[k] > hi[k]) {
-        return Err(Failure::Input(format!("--box `{text}`: range {} ends before it begins", k + 1)));
+        return Err(Failure::Input(format!("{option} `{text}`: range {} ends before it begins", k + 1)));
     }
-    Ok(PoseSet::Box(lo.into_iter().zip(hi).collect()))
+    Ok(lo.into_iter().zip(hi).collect())
 }
 
 fn read_map(path: &str, robot: &Robot) -> Result<Map, Failure> {
@@ -211,6 +271,12 @@ fn sampled(set: &PoseSet) -> Vec<Vec<f64>> {
                 (0..=100).map(at).collect::<Vec<Vec<f64>>>()
             };
             paths.iter().flat_map(|path| path.windows(2).flat_map(between)).collect()
+        }
+        PoseSet::Round { ranges, round, radius } => {
+            let off = |pose: &[f64], k: usize| pose[k] - 0.5 * (ranges[k].0 + ranges[k].1);
+            let is_within =
+                |pose: &Vec<f64>| round.iter().map(|&k| off(pose, k).powi(2)).sum::<f64>() <= radius * radius;
+            sampled(&PoseSet::Box(ranges.clone())).into_iter().filter(is_within).collect()
         }
         PoseSet::Box(ranges) => {
             let mut poses = vec![Vec::new()];

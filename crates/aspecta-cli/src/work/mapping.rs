@@ -4,6 +4,7 @@ use crate::args::budget;
 use crate::args::making::Making;
 use crate::failure::{Failure, advice};
 use crate::input;
+use crate::work::watch::{abandoned_if_cancelled, within_seconds};
 use aspecta::aspect::{Analysis, AspectId, DetSign, Options, analyze};
 use aspecta::domain::boundary::Boundary;
 use aspecta::domain::characteristic::Characteristic;
@@ -11,6 +12,7 @@ use aspecta::domain::{DomainOptions, Domains, Map, MappedAspect, Surfaces, domai
 use aspecta::kinematics::WorkingMode;
 use aspecta::paving::{Control, Stop};
 use aspecta::robot::{FileError, Robot};
+use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 /// The first argument of a command: a robot, or a map.
@@ -120,16 +122,32 @@ impl Making {
         control: &Control<'_>,
         wanted: impl Fn(&Analysis) -> Result<Vec<AspectId>, Failure>,
     ) -> Result<(Map, Option<Stop>), Failure> {
+        let seconds = self.budget.and_then(|budget| budget.seconds);
+        within_seconds(seconds, control, |control| {
+            self.map_within(robot, part, with_surfaces, control, wanted)
+        })
+    }
+
+    /// [`Making::map`], for which the time budget is: half of it for the aspects.
+    fn map_within(
+        &self,
+        robot: &Robot,
+        part: Part,
+        with_surfaces: bool,
+        control: &Control<'_>,
+        wanted: impl Fn(&Analysis) -> Result<Vec<AspectId>, Failure>,
+    ) -> Result<(Map, Option<Stop>), Failure> {
         let free = part.free(robot);
-        let budget = self.budget.unwrap_or_else(|| budget::coarse(free));
+        let mut budget = self.budget.unwrap_or_else(|| budget::coarse(free));
+        budget.seconds = budget.seconds.map(|seconds| 0.5 * seconds);
         let options = Options { budget, fix: part.fix, modes: part.modes, ..Options::default() };
         let usual = usual_options(robot, free);
         let cells = self.cells.map_or(usual.cells, usize::from);
-        let analysis = analyze(robot, &options, control)?;
+        let analysis = Arc::new(analyze(robot, &options, control)?);
         let options = DomainOptions { cells, ..usual };
         let sheet = |id: AspectId| {
             let mut domains = domains(&analysis, id, &options, control)?;
-            let surfaces = with_surfaces.then(|| surfaces(&analysis, &domains, cells)).transpose()?;
+            let surfaces = if with_surfaces { surfaces(&analysis, &domains, cells, control)? } else { None };
             if let Some(Surfaces { characteristic, .. }) = &surfaces {
                 domains.measure_disagreements(characteristic, &analysis.window);
             }
@@ -163,8 +181,19 @@ fn usual_options(robot: &Robot, free: usize) -> DomainOptions {
     }
 }
 
-/// The boundary of an aspect and its characteristic surface, about as fine as the regions: within what [`Boundary::new`] takes.
-fn surfaces(analysis: &Analysis, domains: &Domains, cells: usize) -> Result<Surfaces, Failure> {
+/// The boundary of an aspect and its characteristic surface, about as fine as the regions; `None` once cancelled.
+fn surfaces(
+    analysis: &Arc<Analysis>,
+    domains: &Domains,
+    cells: usize,
+    control: &Control<'_>,
+) -> Result<Option<Surfaces>, Failure> {
+    let (analysis, domains) = (Arc::clone(analysis), domains.clone());
+    abandoned_if_cancelled(control, move || surfaces_of(&analysis, &domains, cells)).transpose()
+}
+
+/// [`surfaces`], with as many cells as [`Boundary::new`] takes.
+fn surfaces_of(analysis: &Analysis, domains: &Domains, cells: usize) -> Result<Surfaces, Failure> {
     let cells = cells.clamp(4, if domains.cell.len() == 2 { 2000 } else { 300 });
     let boundary =
         Boundary::new(analysis, domains.aspect, cells).map_err(|e| Failure::Input(e.to_string()))?;

@@ -1,7 +1,7 @@
 //! The common part of commands that plan motions: what they plan over, and what is written of a plan.
 
 use super::timing;
-use super::watch::watched;
+use super::watch::{abandoned_if_cancelled, watched, within_seconds};
 use crate::args::budget;
 use crate::args::planning::{Analysing, Moving, Planning};
 use crate::failure::Failure;
@@ -10,33 +10,69 @@ use aspecta::aspect::{Analysis, Options, analyze};
 use aspecta::kinematics::WorkingMode;
 use aspecta::motion::ProfilePoint;
 use aspecta::motion::explore::{self, Effort, NoWay};
-use aspecta::motion::modes::{Configuration, NoRoute, Route, check_ends};
-use aspecta::motion::plan::{PlanOptions, Planner};
+use aspecta::motion::modes::{Configuration, ModeGraph, NoRoute, Route, check_ends};
+use aspecta::motion::plan::{Plan, PlanOptions, Planner, Refusal};
 use aspecta::motion::time::{Waypoint, trajectory};
 use aspecta::paving::{Control, Stop};
 use aspecta::robot::Robot;
 use aspecta_view::Motion;
+use std::sync::Arc;
 
 impl Analysing {
-    /// The aspects of a robot, or of some of its modes (none: all), and what `work` makes of them.
+    /// The aspects of a robot, or of some of its modes (none: all), and what `work` makes of them. A time budget
+    /// is for both: what the aspects leave of it, half at least, is for the rest.
     pub fn with<T>(
         &self,
         robot: &Robot,
         modes: &[WorkingMode],
-        work: impl FnOnce(&Analysis, &Control<'_>) -> Result<T, Failure>,
+        work: impl FnOnce(&Arc<Analysis>, &Control<'_>) -> Result<T, Failure>,
     ) -> Result<T, Failure> {
-        let budget = self.budget.unwrap_or_else(|| budget::coarse(robot.dof()));
+        let mut budget = self.budget.unwrap_or_else(|| budget::coarse(robot.dof()));
+        let seconds = budget.seconds;
+        budget.seconds = seconds.map(|seconds| 0.5 * seconds);
         // In the plane all modes cost nothing to speak of, and aspects then have the numbers of `analyze`.
         let modes = if robot.dof() == 2 { &[] } else { modes };
         let options = Options { budget, modes: modes.to_vec(), ..Options::default() };
-        watched(self.threads, |control| {
+        let all = |control: &Control<'_>| {
             let analysis = analyze(robot, &options, control)?;
             if analysis.run.stop == Stop::Cancelled {
                 note("interrupted: what follows rests on the aspects found so far");
             }
-            work(&analysis, control)
-        })?
+            work(&Arc::new(analysis), control)
+        };
+        watched(self.threads, |control| within_seconds(seconds, control, all))?
     }
+}
+
+/// The plan that goes straight, where that is good enough.
+pub fn straight(robot: &Robot, ends: [&[f64]; 2], mode: WorkingMode, options: &PlanOptions) -> Option<Plan> {
+    let window = robot.slice(&[]).ok()?;
+    Planner::straight(robot, &window, ends, mode, options).ok().flatten()
+}
+
+/// The route between two configurations within their working mode, or through changes of it.
+///
+/// # Errors
+/// Why there is none: also that its search, of which nothing can be kept, was cancelled.
+pub fn route(
+    analysis: &Arc<Analysis>,
+    ends: [Configuration<'_>; 2],
+    through: bool,
+    options: &PlanOptions,
+    control: &Control<'_>,
+) -> Result<Route, NoRoute> {
+    let (analysis, options) = (Arc::clone(analysis), *options);
+    let ends = ends.map(|end| (end.pose.to_vec(), end.mode));
+    let look = move || {
+        let [start, goal] = ends.each_ref().map(|(pose, mode)| Configuration { pose, mode: *mode });
+        let mut planner = Planner::new(&analysis);
+        if through {
+            let graph = ModeGraph::new(&analysis, &Control::unwatched());
+            return planner.route(&graph, start, goal, &options);
+        }
+        Ok(planner.plan(start.pose, goal.pose, start.mode, &options)?.into())
+    };
+    abandoned_if_cancelled(control, look).unwrap_or(Err(Refusal::Stopped.into()))
 }
 
 /// Samples of a roadmap that is to join given poses, if no number is given.

@@ -35,6 +35,8 @@ pub struct CuspCurves {
     pub slices: Vec<f64>,
     /// Whether the search of every slice is complete.
     pub slices_complete: bool,
+    /// Whether it was stopped before all slices were searched.
+    pub stopped: bool,
     /// The curves, by working mode.
     pub curves: Vec<CuspCurve>,
 }
@@ -78,33 +80,38 @@ pub enum CurveEnd {
     Lost,
 }
 
-/// The curves of cusps of a robot with n = 3. None for platforms that do not turn.
+/// The curves of cusps of a robot with n = 3, of which no joint is held; the boxes of the options are for all slices
+/// together. None for platforms that do not turn. Once cancelled, those found so far.
 ///
 /// # Errors
 /// [`CuspError`] as [`cusps`]; [`CuspError::NoRange`] if no joint has a range to slice.
-pub fn cusp_curves(
-    robot: &Robot,
-    mode: Option<WorkingMode>,
-    control: &Control<'_>,
-) -> Result<CuspCurves, CuspError> {
+pub fn cusp_curves(robot: &Robot, options: &Options, control: &Control<'_>) -> Result<CuspCurves, CuspError> {
     let (joint, (lo, hi)) =
         joint_range(robot).ok_or_else(|| CuspError::NoRange { robot: robot.name.clone() })?;
-    let options = |value| Options { fix: vec![(joint, value)], mode, boxes: None };
+    let mut left = options.boxes;
+    let slice = |value, boxes| Options { fix: vec![(joint, value)], mode: options.mode, boxes };
     let slices: Vec<f64> = (0..SLICES).map(|i| lo + (hi - lo) * (i as f64 + 0.5) / SLICES as f64).collect();
-    check(robot, &options(slices[0]))?;
+    check(robot, &slice(slices[0], None))?;
     let mut all = CuspCurves {
         robot: robot.name.clone(),
         length_unit: robot.length_unit.clone(),
         joint: format!("q{joint}"),
         slices,
         slices_complete: true,
+        stopped: false,
         curves: Vec::new(),
     };
     let window = robot.slice(&[])?;
     for (done, value) in all.slices.clone().into_iter().enumerate() {
         let quiet = Control { cancelled: control.cancelled, progress: &|_| {} };
-        let found = cusps(robot, &options(value), &quiet)?;
+        let share = left.map(|left| left.div_ceil((SLICES - done) as u64));
+        let found = cusps(robot, &slice(value, share), &quiet)?;
+        left = left.map(|left| left.saturating_sub(found.boxes));
         all.slices_complete &= found.complete;
+        all.stopped = control.is_cancelled();
+        if all.stopped {
+            break;
+        }
         for cusp in &found.cusps {
             let seed = Vector3::from_column_slice(&cusp.pose);
             let curve = match robot.platform {

@@ -47,14 +47,25 @@ impl Labels {
 
     /// The numbers alone.
     pub fn numbers<'a>(&'a self, values: &'a [f64]) -> impl Iterator<Item = String> + 'a {
-        let shown = |(x, angle): (&f64, &bool)| if *angle && self.degrees { x.to_degrees() } else { *x };
-        values.iter().zip(&self.angles).map(move |pair| numbers::number(shown(pair)))
+        self.shown(values).map(numbers::number)
     }
 
-    /// `x = 1.0000, y = …`: five digits, no units.
+    /// The numbers alone, in five digits.
+    pub fn briefly<'a>(&'a self, values: &'a [f64]) -> impl Iterator<Item = String> + 'a {
+        self.shown(values).map(numbers::brief)
+    }
+
+    fn shown<'a>(&'a self, values: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
+        let shown = |(x, angle): (&f64, &bool)| if *angle && self.degrees { x.to_degrees() } else { *x };
+        values.iter().zip(&self.angles).map(shown)
+    }
+
+    /// `x = 1.0000, y = …`: five digits, no units but degrees.
     pub fn brief(&self, values: &[f64]) -> String {
-        let parts = self.names.iter().zip(values).map(|(name, x)| format!("{name} = {}", numbers::brief(*x)));
-        parts.collect::<Vec<_>>().join(", ")
+        let names = self.names.iter().zip(&self.angles);
+        let unit = |angle: &bool| if *angle && self.degrees { " deg" } else { "" };
+        let part = |((name, angle), x): ((&String, &bool), String)| format!("{name} = {x}{}", unit(angle));
+        names.zip(self.briefly(values)).map(part).collect::<Vec<_>>().join(", ")
     }
 
     /// `x = 1.000000 mm, y = …`.

@@ -271,7 +271,7 @@ fn run_section<'a>(run: &Run, names: impl Iterator<Item = &'a str>) -> Markup {
         Stop::Exact => "the bounds on the number of aspects met",
         Stop::Resolution => "the resolution asked for was reached",
         Stop::Boxes => "the budget of boxes was spent",
-        Stop::Time => "the budget of time was spent",
+        Stop::Time => "the budget of time was spent, or too little of it was left for the next step",
         Stop::Cancelled => "it was cancelled; this is the result so far",
     };
     let widths = names

@@ -116,6 +116,7 @@ fn analyze_here(robot: &Robot, options: &Options, control: &Control<'_>) -> Resu
         resolution: window.ranges.iter().map(|r| (r.1 - r.0) / f64::from(1u32 << depth)).collect(),
         stop: passes.iter().map(|pass| pass.stop).fold(Stop::Exact, Stop::worse),
         seconds: 0.0,
+        allowed_seconds: budget.seconds,
     };
     let mut found = Vec::new();
     let (mut reports, mut doubts, mut certificate, mut pavings) = (vec![], vec![], None, vec![]);

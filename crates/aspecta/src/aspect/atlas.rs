@@ -216,15 +216,16 @@ impl<'a> Atlas<'a> {
             if split.is_empty() {
                 return even;
             }
-            if split.len() > limits.affordable(self) || limits.is_over(self.boxes()) {
+            if split.len() > limits.affordable(self) {
                 return Even { reached: false, ..even };
             }
-            let done = self.boxes();
-            let total = done + split.len() as u64;
-            (limits.control.progress)(Progress { stage: "paving evenly", done, total });
             (first, even.changed) = (all, true);
-            if self.split(&split, limits).is_none() {
-                return Even { reached: false, ..even };
+            let total = self.boxes() + split.len() as u64;
+            for some in split.chunks(SOME) {
+                (limits.control.progress)(Progress { stage: "paving evenly", done: self.boxes(), total });
+                if limits.is_over(self.boxes()) || self.split(some, limits).is_none() {
+                    return Even { reached: false, ..even };
+                }
             }
         }
     }
@@ -250,7 +251,6 @@ impl<'a> Atlas<'a> {
 
     /// Looks for summits in leaves, as long as the limits allow, and returns those in which some might be.
     pub(super) fn survey(&mut self, leaves: &[Leaf], limits: &Limits<'_>) -> Vec<Leaf> {
-        const SOME: usize = 1 << 15;
         for (done, some) in leaves.chunks(SOME).enumerate() {
             if limits.is_over(self.boxes()) {
                 break;
@@ -296,6 +296,9 @@ impl<'a> Atlas<'a> {
         all.then_some(children)
     }
 }
+
+/// Boxes between two looks at the limits.
+const SOME: usize = 1 << 15;
 
 /// How often a box is halved to see whether it lies in a chart.
 const HALVINGS: u32 = 12;

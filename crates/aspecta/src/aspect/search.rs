@@ -47,19 +47,26 @@ impl<'a> Search<'a> {
         search.count_all(modes, &limits);
         limits.rest = limits.rest.max(AFTER * counting.seconds() / search.atlas.boxes() as f64);
         afforded &= search.join(&limits);
-        let even = search.atlas.even_out(budget.even(window), &limits);
+        // Nothing is left to be found by going on as finely as was allowed.
+        let finest = if search.is_exact() { Budget::default().even(window) } else { MAX_DEPTH };
+        let even = search.atlas.even_out(budget.even(window).min(finest), &limits);
         afforded &= even.reached;
         if even.changed {
             search.recount(&limits, |_| true);
         }
         search.stop = match () {
-            () if search.counted.iter().all(|(_, c)| c.is_exact()) => Stop::Exact,
+            () if search.is_exact() => Stop::Exact,
             () if control.is_cancelled() => Stop::Cancelled,
             () if limits.late.load(Ordering::Relaxed) || paved == Stop::Time => Stop::Time,
             () if afforded && paved == Stop::Resolution => Stop::Resolution,
             () => Stop::Boxes,
         };
         search
+    }
+
+    /// Whether the bounds have met.
+    fn is_exact(&self) -> bool {
+        self.counted.iter().all(|(_, counted)| counted.is_exact())
     }
 
     fn count_all(&mut self, modes: &[WorkingMode], limits: &Limits<'_>) {

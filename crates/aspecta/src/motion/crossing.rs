@@ -7,6 +7,7 @@
 //! of different signs are never joined so.
 
 use crate::aspect::{Analysis, AspectId, ClassId, DetSign, Place};
+use crate::paving::Control;
 use aspecta_kinematics::constraints::{Demand, Margins, measures};
 use aspecta_kinematics::modal::closures;
 use aspecta_kinematics::path::curve::{Along, Curve, along};
@@ -47,8 +48,8 @@ pub struct Crossing {
 }
 
 /// The best crossing found between every two aspects of an analysis that differ in one leg's posture, by
-/// aspect numbers and leg. That there is no other is not proved.
-pub fn crossings(analysis: &Analysis) -> Vec<Crossing> {
+/// aspect numbers and leg; once cancelled, those found so far. That there is no other is not proved.
+pub fn crossings(analysis: &Analysis, control: &Control<'_>) -> Vec<Crossing> {
     let classes = &analysis.classes;
     let pairs = |leg: LegIndex| {
         (0..classes.len()).flat_map(move |a| (a + 1..classes.len()).map(move |b| (a, b))).filter(
@@ -66,7 +67,7 @@ pub fn crossings(analysis: &Analysis) -> Vec<Crossing> {
         })
         .collect();
     let mut found: Vec<Crossing> =
-        work::flat_map(&all, |side| for_platform!(analysis.robot.platform, between(side)));
+        work::flat_map(&all, |side| for_platform!(analysis.robot.platform, between(side, control)));
     found.sort_by_key(|crossing| (crossing.aspects, crossing.leg));
     found
 }
@@ -97,9 +98,10 @@ struct Candidate<const N: usize> {
     clearance: f64,
 }
 
-fn between<const D: usize, const N: usize>(side: &Side<'_>) -> Vec<Crossing> {
+fn between<const D: usize, const N: usize>(side: &Side<'_>, control: &Control<'_>) -> Vec<Crossing> {
     let mut by_aspects: BTreeMap<[AspectId; 2], Vec<Candidate<N>>> = BTreeMap::new();
-    for cell in side.analysis.cells(side.classes.0) {
+    let cells = side.analysis.cells(side.classes.0);
+    for cell in cells.into_iter().take_while(|_| !control.is_cancelled()) {
         let centre: [f64; N] = std::array::from_fn(|k| 0.5 * (cell.lo[k] + cell.hi[k]));
         let near =
             2.0 * (0..N).map(|k| ((cell.hi[k] - cell.lo[k]) / side.width(k)).powi(2)).sum::<f64>().sqrt();
@@ -110,7 +112,8 @@ fn between<const D: usize, const N: usize>(side: &Side<'_>) -> Vec<Crossing> {
     }
     let best = |(aspects, mut candidates): ([AspectId; 2], Vec<Candidate<N>>)| {
         candidates.sort_by(|a, b| b.clearance.total_cmp(&a.clearance));
-        let proved = candidates.into_iter().take(TRIED).find_map(|c| side.prove::<D, N>(&c, aspects));
+        let mut tried = candidates.into_iter().take(TRIED).take_while(|_| !control.is_cancelled());
+        let proved = tried.find_map(|c| side.prove::<D, N>(&c, aspects));
         proved.map(|crossing| side.improve::<D, N>(crossing))
     };
     by_aspects.into_iter().filter_map(best).collect()

@@ -4,6 +4,7 @@ use super::crossing::{Crossing, crossings};
 use super::plan::refusal::{aspect_at, sign_at, word};
 use super::plan::{End, PlanOptions, Planner, Refusal};
 use crate::aspect::{Analysis, AspectId, Count, DetSign};
+use crate::paving::Control;
 use aspecta_kinematics::constraints::Margins;
 use aspecta_robot::{Robot, Window, WorkingMode};
 use serde::Serialize;
@@ -26,6 +27,8 @@ pub struct ModeGraph {
     /// Which aspects can be reached from one another: sets of [`GraphAspect::id`], ascending. That the members of a set are joined is
     /// proved where each of them is proved to be one ([`ModeGraph::is_proved`]). Aspects of different signs of det A are in different sets: proved too. That sets of one sign are not joined is not.
     pub groups: Vec<Vec<AspectId>>,
+    /// Whether crossings were looked for everywhere; false if that was cancelled.
+    pub searched: bool,
 }
 
 /// An aspect in the graph.
@@ -44,7 +47,7 @@ pub struct GraphAspect {
 }
 
 impl ModeGraph {
-    /// The graph of an analysis of all modes.
+    /// The graph of an analysis of all modes. Once cancelled, with the crossings found so far.
     ///
     /// # Examples
     /// ```
@@ -56,14 +59,14 @@ impl ModeGraph {
     /// let options = Options { budget, ..Options::default() };
     /// let analysis = analyze(&robot, &options, &Control::unwatched())?;
     ///
-    /// let graph = ModeGraph::new(&analysis);
+    /// let graph = ModeGraph::new(&analysis, &Control::unwatched());
     /// // det A keeps its sign through every change of posture.
     /// assert!(graph.groups.len() >= 2);
     /// assert!(graph.crossings.iter().all(|crossing| crossing.clearance > 0.0));
     /// # Ok(())
     /// # }
     /// ```
-    pub fn new(analysis: &Analysis) -> Self {
+    pub fn new(analysis: &Analysis, control: &Control<'_>) -> Self {
         let entries = analysis.classes.iter().flat_map(|class| {
             class.aspects.iter().map(|aspect| GraphAspect {
                 id: aspect.id,
@@ -78,8 +81,9 @@ impl ModeGraph {
             aspects: entries.collect(),
             count: analysis.aspects,
             unseen: unseen.map(|class| (class.mode, class.det_a)).collect(),
-            crossings: crossings(analysis),
+            crossings: crossings(analysis, control),
             groups: Vec::new(),
+            searched: !control.is_cancelled(),
         };
         let mut left: Vec<AspectId> = graph.aspects.iter().map(|aspect| aspect.id).collect();
         while let Some(&first) = left.first() {

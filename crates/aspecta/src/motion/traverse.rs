@@ -30,6 +30,15 @@ const SEGMENT_EFFORT: usize = 50_000;
 pub enum PoseSet {
     /// All poses with every coordinate in its range.
     Box(Vec<(f64, f64)>),
+    /// The poses of a box of which some coordinates lie within a circle or a sphere: a disc, a cylinder, a ball.
+    Round {
+        /// The range of every coordinate; of those that are round, from one end of the circle or sphere to the other.
+        ranges: Vec<(f64, f64)>,
+        /// Which coordinates are round, by index.
+        round: Vec<usize>,
+        /// The radius.
+        radius: f64,
+    },
     /// Separate poses.
     Poses(Vec<Vec<f64>>),
     /// Polylines: every path through its poses by straight segments.
@@ -146,9 +155,37 @@ impl PoseSet {
         self.parts().iter().flatten().try_for_each(|pose| check_pose(robot, pose))
     }
 
-    /// Poses of which it is the hull, one list for each part that hangs together: the corners of a box, each pose by itself, each path.
+    /// Returns the round set about `centre`: `round` coordinates, by index, lie within `radius` of it, the others in the ranges given.
+    ///
+    /// # Examples
+    /// ```
+    /// use aspecta::PoseSet;
+    ///
+    /// // A cylinder: x and y within 0.2 of the z axis.
+    /// let set = PoseSet::round(vec![(0.0, 0.0), (0.0, 0.0), (-1.3, -1.1)], vec![0, 1], 0.2);
+    /// assert!(matches!(set, PoseSet::Round { ranges, .. } if ranges[0] == (-0.2, 0.2)));
+    /// ```
+    pub fn round(mut ranges: Vec<(f64, f64)>, round: Vec<usize>, radius: f64) -> Self {
+        for (_, range) in ranges.iter_mut().enumerate().filter(|(k, _)| round.contains(k)) {
+            *range = (range.0 - radius, range.1 + radius);
+        }
+        Self::Round { ranges, round, radius }
+    }
+
+    /// Poses of which it is the hull, one list for each part that hangs together: the corners of a box, what lies furthest along each
+    /// coordinate of a round set, each pose by itself, each path.
     fn parts(&self) -> Vec<Vec<Vec<f64>>> {
         match self {
+            Self::Round { ranges, .. } => {
+                let centre = centre(ranges);
+                let end = |k: usize, x: f64| {
+                    let mut pose = centre.clone();
+                    pose[k] = x;
+                    pose
+                };
+                let ends = |k: usize| [end(k, ranges[k].0), end(k, ranges[k].1)];
+                vec![(0..ranges.len()).flat_map(ends).collect()]
+            }
             Self::Box(ranges) => {
                 vec![vec![ranges.iter().map(|r| r.0).collect(), ranges.iter().map(|r| r.1).collect()]]
             }
@@ -180,13 +217,14 @@ fn holds(analysis: &Analysis, set: &PoseSet, class: ClassId) -> Holds {
     {
         return Holds::NotWhole { pose, constraint: None };
     }
+    let over_ranges = |ranges: &[(f64, f64)], circle: Option<Circle<'_>>| {
+        let whole = for_platform!(robot.platform, over_box(robot, &demand, ranges, circle));
+        whole.unwrap_or_else(|| Holds::Whole { aspect: aspect_at(analysis, &centre(ranges), class) })
+    };
     match set {
-        PoseSet::Box(ranges) => {
-            let whole = for_platform!(robot.platform, over_box(robot, &demand, ranges));
-            whole.unwrap_or_else(|| {
-                let centre: Vec<f64> = ranges.iter().map(|r| 0.5 * (r.0 + r.1)).collect();
-                Holds::Whole { aspect: aspect_at(analysis, &centre, class) }
-            })
+        PoseSet::Box(ranges) => over_ranges(ranges, None),
+        PoseSet::Round { ranges, round, radius } => {
+            over_ranges(ranges, Some(Circle { centre: centre(ranges), round, radius: *radius }))
         }
         PoseSet::Poses(_) | PoseSet::Paths(_) => over_parts(analysis, &set.parts(), class, &demand),
     }
@@ -237,12 +275,40 @@ fn leaves_class(robot: &Robot, demand: &Demand, path: &[Vec<f64>]) -> Option<Hol
     })
 }
 
-/// `None` if the box is proved to lie in the class: by bisection, all constraints > 0 on every part. A box is connected, so it lies in one
-/// aspect then.
+fn centre(ranges: &[(f64, f64)]) -> Vec<f64> {
+    ranges.iter().map(|r| 0.5 * (r.0 + r.1)).collect()
+}
+
+/// The circle or sphere that cuts a box.
+struct Circle<'a> {
+    centre: Vec<f64>,
+    round: &'a [usize],
+    radius: f64,
+}
+
+impl Circle<'_> {
+    /// The pose of a box that is nearest to the centre, and whether it surely lies within, or surely not: then
+    /// nothing of the box does.
+    fn nearest(&self, part: &[Interval]) -> (Vec<f64>, Option<bool>) {
+        let mut pose: Vec<f64> = part.iter().map(|x| x.mid()).collect();
+        let mut square = Interval::point(0.0);
+        for &k in self.round {
+            pose[k] = self.centre[k].clamp(part[k].lo, part[k].hi);
+            square = square + (Interval::point(pose[k]) - Interval::point(self.centre[k])).square();
+        }
+        let room = Interval::point(self.radius).square() - square;
+        let holds = if room.is_negative() { Some(false) } else { (room.lo >= 0.0).then_some(true) };
+        (pose, holds)
+    }
+}
+
+/// `None` if the box, or what a circle leaves of it, is proved to lie in the class: by bisection, all constraints > 0 on every part that it
+/// meets. It is connected, so it lies in one aspect then.
 fn over_box<const D: usize, const N: usize>(
     robot: &Robot,
     demand: &Demand,
     ranges: &[(f64, f64)],
+    circle: Option<Circle<'_>>,
 ) -> Option<Holds> {
     let whole: [Interval; N] = std::array::from_fn(|k| Interval::new(ranges[k].0, ranges[k].1));
     // The largest parts first: one that fails as a whole ends it.
@@ -250,14 +316,22 @@ fn over_box<const D: usize, const N: usize>(
     let mut spent = 0;
     while let Some(part) = open.pop_front() {
         spent += 1;
-        let centre: Vec<f64> = part.iter().map(|x| x.mid()).collect();
+        let (centre, meets) = match &circle {
+            Some(circle) => circle.nearest(&part),
+            None => (part.iter().map(|x| x.mid()).collect(), Some(true)),
+        };
+        if meets == Some(false) {
+            continue;
+        }
         match over_part::<D, N>(robot, demand, &part) {
             Part::Inside => {}
-            Part::Outside(constraint) => {
+            Part::Outside(constraint) if meets == Some(true) => {
                 return Some(Holds::NotWhole { pose: centre, constraint: Some(constraint) });
             }
-            Part::Open if spent >= BOX_EFFORT => return Some(Holds::Undecided { pose: centre }),
-            Part::Open => {
+            Part::Outside(_) | Part::Open if spent >= BOX_EFFORT => {
+                return Some(Holds::Undecided { pose: centre });
+            }
+            Part::Outside(_) | Part::Open => {
                 // Across the side that is longest by the box asked about.
                 let share = |k: &usize| part[*k].width() / whole[*k].width().max(f64::MIN_POSITIVE);
                 let k = (0..N).max_by(|a, b| share(a).total_cmp(&share(b)))?;

@@ -2,7 +2,7 @@
 
 use super::{Align, Labels, Table, between, brief, doubts, paragraph};
 use crate::aspect::{
-    Analysis, Aspect, AspectClass, Count, DetSign, EarlierAspects, Held, Measure, Reachable,
+    Analysis, Aspect, AspectClass, Count, DetSign, EarlierAspects, Held, Measure, Reachable, Run,
 };
 use crate::paving::Stop;
 use aspecta_kinematics::WorkingMode;
@@ -33,6 +33,8 @@ pub struct AnalysisAdvice {
 pub struct AnalysisSummary<'a> {
     /// The analysis.
     pub analysis: &'a Analysis,
+    /// Whether angles are in degrees; else in radians.
+    pub degrees: bool,
     /// The advice.
     pub advice: AnalysisAdvice,
 }
@@ -55,17 +57,18 @@ pub struct AnalysisSummary<'a> {
 /// ```
 impl fmt::Display for Analysis {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        AnalysisSummary { analysis: self, advice: AnalysisAdvice::default() }.fmt(f)
+        AnalysisSummary { analysis: self, degrees: false, advice: AnalysisAdvice::default() }.fmt(f)
     }
 }
 
 impl fmt::Display for AnalysisSummary<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write(f, self.analysis, &self.advice)
+        write(f, *self)
     }
 }
 
-fn write(out: &mut dyn Write, analysis: &Analysis, advice: &AnalysisAdvice) -> fmt::Result {
+fn write(out: &mut dyn Write, summary: AnalysisSummary<'_>) -> fmt::Result {
+    let AnalysisSummary { analysis, degrees, advice } = summary;
     let robot = &analysis.robot;
     let title = if robot.title.is_empty() { String::new() } else { format!(": {}", robot.title) };
     writeln!(
@@ -77,7 +80,7 @@ fn write(out: &mut dyn Write, analysis: &Analysis, advice: &AnalysisAdvice) -> f
         writeln!(out, "{}", paragraph(&slice))?;
     }
     theorem_1(out, analysis)?;
-    table_1(out, analysis)?;
+    table_1(out, analysis, degrees)?;
     let earlier_sets = [
         ("Def. 5, parallel aspects", &analysis.parallel_aspects),
         ("Def. 6, serial aspects", &analysis.serial_aspects),
@@ -89,12 +92,12 @@ fn write(out: &mut dyn Write, analysis: &Analysis, advice: &AnalysisAdvice) -> f
     if analysis.parallel_aspects.is_empty() {
         writeln!(out, "{}", paragraph(&format!("Defs 5 and 6: left out, {EARLIER_NEED}.")))?;
     }
-    aspects(out, analysis, advice)?;
-    ranges(out, analysis)?;
-    writeln!(out, "\n{}", paragraph(&run(analysis)))?;
+    aspects(out, summary)?;
+    ranges(out, analysis, degrees)?;
+    writeln!(out, "\n{}", paragraph(&run(analysis, degrees)))?;
     // Last, where a terminal shows it: how many there are, and why that is not known better.
     table_2(out, analysis)?;
-    doubts::write(out, analysis, advice)
+    doubts::write(out, analysis, &advice)
 }
 
 /// What was held, if anything.
@@ -132,10 +135,10 @@ fn theorem_1(out: &mut dyn Write, analysis: &Analysis) -> fmt::Result {
     Ok(())
 }
 
-fn table_1(out: &mut dyn Write, analysis: &Analysis) -> fmt::Result {
+fn table_1(out: &mut dyn Write, analysis: &Analysis, degrees: bool) -> fmt::Result {
     writeln!(out, "\nTable 1: working modes (Def. 7)")?;
     let shown = shown(analysis);
-    let labels = Labels::pose(&analysis.robot, false).only(&shown);
+    let labels = Labels::pose(&analysis.robot, degrees).only(&shown);
     let signs = sign_headings(&analysis.robot);
     let last = [("reachable".into(), Align::Left), ("for example at".into(), Align::Left)];
     let mut table = Table::new([("mode".to_owned(), Align::Left)].into_iter().chain(signs).chain(last));
@@ -216,7 +219,8 @@ fn table_2(out: &mut dyn Write, analysis: &Analysis) -> fmt::Result {
     writeln!(out, "{}", paragraph(&format!("number of generalized aspects{of_slice}, {total}")))
 }
 
-fn aspects(out: &mut dyn Write, analysis: &Analysis, advice: &AnalysisAdvice) -> fmt::Result {
+fn aspects(out: &mut dyn Write, summary: AnalysisSummary<'_>) -> fmt::Result {
+    let AnalysisSummary { analysis, degrees, advice } = summary;
     let all: Vec<(&AspectClass, &Aspect)> =
         analysis.classes.iter().flat_map(|c| c.aspects.iter().map(move |a| (c, a))).collect();
     if all.is_empty() {
@@ -227,7 +231,7 @@ fn aspects(out: &mut dyn Write, analysis: &Analysis, advice: &AnalysisAdvice) ->
     // More joints than three have no room.
     let joints_shown: Vec<usize> = if is_wide(robot) { Vec::new() } else { (0..robot.dof()).collect() };
     let (pose, joints) =
-        (Labels::pose(robot, false).only(&shown), Labels::joints(robot, false).only(&joints_shown));
+        (Labels::pose(robot, degrees).only(&shown), Labels::joints(robot, degrees).only(&joints_shown));
     let right = |name: &str| (name.to_owned(), Align::Right);
     let left = |name: &str| (name.to_owned(), Align::Left);
     let names = [right("id"), left("mode"), left("det A"), right(analysis.measure.name), right("pieces")];
@@ -241,9 +245,8 @@ fn aspects(out: &mut dyn Write, analysis: &Analysis, advice: &AnalysisAdvice) ->
             brief(aspect.measure),
             aspect.pieces.to_string(),
         ];
-        let vectors = at(&aspect.sample.pose, &shown).into_iter().chain(at(&aspect.sample.q, &joints_shown));
-        let vectors = vectors.map(brief);
-        table.row(first.into_iter().chain(vectors));
+        let (x, q) = (at(&aspect.sample.pose, &shown), at(&aspect.sample.q, &joints_shown));
+        table.row(first.into_iter().chain(pose.briefly(&x)).chain(joints.briefly(&q)));
     }
     write!(out, "{table}")?;
     if all.len() > LISTED {
@@ -253,27 +256,28 @@ fn aspects(out: &mut dyn Write, analysis: &Analysis, advice: &AnalysisAdvice) ->
 }
 
 /// The ranges of aspects: all of each in W, certainly, and the images of its certified boxes in Q.
-fn ranges(out: &mut dyn Write, analysis: &Analysis) -> fmt::Result {
+fn ranges(out: &mut dyn Write, analysis: &Analysis, degrees: bool) -> fmt::Result {
     let all: Vec<&Aspect> = analysis.classes.iter().flat_map(|c| &c.aspects).take(LISTED).collect();
     if all.is_empty() {
         return Ok(());
     }
     writeln!(out, "\nRanges of each aspect (certified; of the joints: where it is certified inside)")?;
     let (shown, robot) = (shown(analysis), &analysis.robot);
-    let (pose, joints) = (Labels::pose(robot, false).only(&shown), Labels::joints(robot, false));
-    let of_pose = pose.headings().zip(shown.iter().map(|&k| (true, k)));
-    let of_joints = joints.headings().zip((0..robot.dof()).map(|k| (false, k)));
-    let columns: Vec<(String, (bool, usize))> = of_pose.chain(of_joints).collect();
+    let (pose, joints) = (Labels::pose(robot, degrees), Labels::joints(robot, degrees));
+    let of_pose = shown.iter().map(|&k| (pose.clone().only(&[k]), true, k));
+    let of_joints = (0..robot.dof()).map(|k| (joints.clone().only(&[k]), false, k));
+    let columns: Vec<(Labels, bool, usize)> = of_pose.chain(of_joints).collect();
     let room = if columns.len() <= WIDEST { WIDEST } else { 3 };
     for columns in columns.chunks(room) {
         let mut table = Table::new(
             [("id".to_owned(), Align::Right)]
                 .into_iter()
-                .chain(columns.iter().map(|(name, _)| (name.clone(), Align::Right))),
+                .chain(columns.iter().flat_map(|c| c.0.headings().map(|name| (name, Align::Right)))),
         );
         for aspect in &all {
-            let range = |&(_, (of_pose, k)): &(String, (bool, usize))| {
-                let (lo, hi) = if of_pose { aspect.w_bounds[k] } else { aspect.q_bounds[k] };
+            let range = |(labels, of_pose, k): &(Labels, bool, usize)| {
+                let (lo, hi) = if *of_pose { aspect.w_bounds[*k] } else { aspect.q_bounds[*k] };
+                let brief = |x: f64| labels.briefly(&[x]).collect::<String>();
                 // An aspect that is known in the chart of a fold alone has no certified boxes here.
                 if lo < hi { format!("{} to {}", brief(lo), brief(hi)) } else { "-".to_owned() }
             };
@@ -301,20 +305,21 @@ fn earlier(name: &str, sets: &[EarlierAspects], measure: &Measure) -> String {
     format!("{name} (numerical): {}; {verdict}.", counts.join(", "))
 }
 
-fn run(analysis: &Analysis) -> String {
+fn run(analysis: &Analysis, degrees: bool) -> String {
     let run = &analysis.run;
     let ended = match run.stop {
-        Stop::Exact => "the bounds meet",
-        Stop::Resolution => "resolution reached",
-        Stop::Boxes => "box budget spent",
-        Stop::Time => "time budget spent",
-        Stop::Cancelled => "cancelled",
+        Stop::Exact => "the bounds meet".into(),
+        Stop::Resolution => "resolution reached".into(),
+        Stop::Boxes => "box budget spent".into(),
+        Stop::Time => out_of_time(run),
+        Stop::Cancelled => "cancelled".into(),
     };
     let coordinates = analysis.robot.platform.coordinates();
     let varying = run.resolution.iter().zip(coordinates).filter(|(w, _)| **w > 0.0);
-    let widths = varying.map(|(w, c)| {
-        let unit = if c.angle { "rad" } else { &analysis.robot.length_unit };
-        format!("{} {unit}", brief(*w))
+    let widths = varying.map(|(w, c)| match c.angle {
+        true if degrees => format!("{} deg", brief(w.to_degrees())),
+        true => format!("{} rad", brief(*w)),
+        false => format!("{} {}", brief(*w), analysis.robot.length_unit),
     });
     let cells = widths.collect::<Vec<_>>().join(" × ");
     format!(
@@ -324,6 +329,19 @@ fn run(analysis: &Analysis) -> String {
         run.depth,
         found(analysis)
     )
+}
+
+/// Why a run ended for want of time, and why not just then.
+fn out_of_time(run: &Run) -> String {
+    let allowed = run.allowed_seconds.unwrap_or(run.seconds);
+    let spent = format!("time budget of {} s spent", brief(allowed));
+    match run.seconds - allowed {
+        over if over > 0.5 => format!("{spent}, and {over:.1} s for the step under way"),
+        over if over < -0.5 => {
+            format!("{spent} or kept: the next step is expected to take more than is left")
+        }
+        _ => spent,
+    }
 }
 
 /// `exactly 10 aspects`: said once more at the end, where a terminal stands still.

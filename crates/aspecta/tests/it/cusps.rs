@@ -369,7 +369,7 @@ fn options_that_do_not_fit_are_refused() {
 fn the_curves_of_the_3_rpr_pass_through_the_cusps_of_other_slices() {
     let robot = Robot::resolve("3-rpr").unwrap();
     let control = Control { cancelled: &AtomicBool::new(false), progress: &|_| {} };
-    let curves = cusp_curves(&robot, None, &control).unwrap();
+    let curves = cusp_curves(&robot, &Options::default(), &control).unwrap();
     assert!(curves.slices_complete && !curves.curves.is_empty());
     let distance =
         |a: &[f64], b: &[f64]| ((a[0] - b[0]) / 20.0).hypot((a[1] - b[1]) / 20.0).hypot(between(a[2], b[2]));

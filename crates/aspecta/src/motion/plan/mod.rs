@@ -76,6 +76,8 @@ pub struct Planner<'a> {
 const TRIAL: usize = 200;
 /// For one that is to be returned.
 pub(super) const FINAL: usize = 100_000;
+/// Samples of the clearance along the straight way.
+const SAMPLES: u32 = 32;
 /// How often a way is looked for again because a segment of it does not keep the margins.
 const DETOURS: usize = 200;
 
@@ -105,6 +107,71 @@ impl Proof<'_> {
     }
 }
 
+/// What a path is looked for by.
+struct Search<'a> {
+    robot: &'a Robot,
+    window: &'a Window,
+    det_a: DetSign,
+    demand: Demand,
+    weight: f64,
+}
+
+impl<'a> Search<'a> {
+    fn new(
+        robot: &'a Robot,
+        window: &'a Window,
+        mode: WorkingMode,
+        det_a: DetSign,
+        options: &PlanOptions,
+    ) -> Self {
+        let demand = Demand { margins: options.margins, ..Demand::class(mode, det_a.factor()) };
+        Self { robot, window, det_a, demand, weight: options.weight }
+    }
+
+    fn cost(&self) -> Cost<'_, 3> {
+        Cost::new(self.robot, self.window, &self.demand, self.weight)
+    }
+
+    fn proof(&self) -> Proof<'_> {
+        Proof { robot: self.robot, window: self.window, demand: &self.demand }
+    }
+
+    /// The straight way, if it is proved and no other is likely to be much better.
+    fn straight(&self, [start, goal]: [Pose; 2]) -> Option<Vec<Pose>> {
+        let cost = self.cost();
+        let goal = cost.beside(&start, &goal);
+        let clearance = |t: f64| {
+            let x: Pose = std::array::from_fn(|k| start[k] + t * (goal[k] - start[k]));
+            let measures = cost.measures(&x);
+            measures.parallel.min(measures.serial)
+        };
+        let least = clearance(0.0).min(clearance(1.0));
+        let is_clear = || (1..SAMPLES).all(|i| clearance(f64::from(i) / f64::from(SAMPLES)) >= least);
+        // Of a length alone nothing is shorter.
+        let is_good = cost.is_length() || (self.weight <= 1.0 && is_clear());
+        (is_good && self.proof().holds(&start, &goal)).then(|| vec![start, goal])
+    }
+
+    /// The plan along a proved path, made cheaper.
+    fn finish(&self, path: Vec<Pose>, aspect: Option<AspectId>) -> Result<Plan, Refusal> {
+        let (cost, proof) = (self.cost(), self.proof());
+        let path = shorten::improve(&proof, &cost, path);
+        let pose = |x: &Pose| x[..self.robot.dof()].to_vec();
+        if let Some(k) = path.windows(2).position(|ends| !proof.holds_within(&ends[0], &ends[1], FINAL)) {
+            return Err(Refusal::Unproved { pose: pose(&path[k]) });
+        }
+        Ok(Plan {
+            robot: self.robot.clone(),
+            mode: self.demand.mode,
+            det_a: self.det_a,
+            aspect,
+            length: path.windows(2).map(|ends| cost.distance(&ends[0], &ends[1])).sum(),
+            waypoints: path.iter().map(pose).collect(),
+            margins: self.demand.margins,
+        })
+    }
+}
+
 impl<'a> Planner<'a> {
     /// A planner over a whole robot of two or three degrees of freedom (no slice of it).
     pub fn new(analysis: &'a Analysis) -> Self {
@@ -124,6 +191,40 @@ impl<'a> Planner<'a> {
         options: &PlanOptions,
     ) -> Result<DetSign, Refusal> {
         refusal::common_sign(robot, window, ends, mode, options.margins)
+    }
+
+    /// The path between two poses that goes straight, or nearly, where no aspects need be known: it is proved, and on the straight
+    /// segment the robot is nowhere nearer to singularities than at one of its ends. `None` where there is no such path, or
+    /// nearness to singularities counts so much ([`PlanOptions::weight`] above 1) that a detour may be better.
+    ///
+    /// # Errors
+    /// As [`Planner::check_ends`].
+    ///
+    /// # Examples
+    /// ```
+    /// use aspecta::{PlanOptions, Planner, Robot};
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let robot = Robot::resolve("delta")?;
+    /// let window = robot.slice(&[])?;
+    /// let ends = [&[0.0, 0.0, -1.2][..], &[0.1, 0.0, -1.2]];
+    /// let mode = robot.inverse(ends[0])?[0].mode;
+    /// let plan = Planner::straight(&robot, &window, ends, mode, &PlanOptions::default())?;
+    /// assert!(plan.is_some_and(|plan| plan.aspect.is_none() && plan.waypoints.len() == 2));
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn straight(
+        robot: &Robot,
+        window: &Window,
+        ends: [&[f64]; 2],
+        mode: WorkingMode,
+        options: &PlanOptions,
+    ) -> Result<Option<Plan>, Refusal> {
+        let det_a = Self::check_ends(robot, window, ends, mode, options)?;
+        let search = Search::new(robot, window, mode, det_a, options);
+        let ends = ends.map(|pose| -> Pose { padded(&window.turned(pose)) });
+        search.straight(ends).map(|path| search.finish(path, None)).transpose()
     }
 
     /// Returns the analysis that it plans over.
@@ -168,39 +269,23 @@ impl<'a> Planner<'a> {
         }
         let det_a = Self::check_ends(robot, window, [start, goal], mode, options)?;
         let (class, aspect) = refusal::common_aspect(analysis, [start, goal], mode, det_a)?;
-        let demand = Demand { margins: options.margins, ..Demand::class(mode, det_a.factor()) };
-        let cost = Cost::new(robot, window, &demand, options.weight);
-        let proof = Proof { robot, window, demand: &demand };
+        let search = Search::new(robot, window, mode, det_a, options);
         let ends = [start, goal].map(|pose| -> Pose { padded(&analysis.window.turned(pose)) });
-        let path = self.sound_path(class, &cost, &proof, ends)?;
-        let path = shorten::improve(&proof, &cost, path);
-        if let Some(k) = path.windows(2).position(|ends| !proof.holds_within(&ends[0], &ends[1], FINAL)) {
-            return Err(Refusal::Unproved { pose: path[k][..analysis.robot.dof()].to_vec() });
-        }
-        Ok(Plan {
-            robot: robot.clone(),
-            mode,
-            det_a,
-            aspect,
-            length: path.windows(2).map(|ends| cost.distance(&ends[0], &ends[1])).sum(),
-            waypoints: path.iter().map(|x| x[..analysis.robot.dof()].to_vec()).collect(),
-            margins: options.margins,
-        })
+        let path = match search.straight(ends) {
+            Some(path) => path,
+            None => self.sound_path(class, &search, ends)?,
+        };
+        search.finish(path, aspect)
     }
 
     /// Some path, proved.
     fn sound_path(
         &mut self,
         class: ClassId,
-        cost: &Cost<'_, 3>,
-        proof: &Proof<'_>,
+        search: &Search<'_>,
         ends: [Pose; 2],
     ) -> Result<Vec<Pose>, Refusal> {
-        let straight = [ends[0], cost.beside(&ends[0], &ends[1])];
-        // Nothing is shorter.
-        if cost.is_length() && proof.holds(&straight[0], &straight[1]) {
-            return Ok(straight.to_vec());
-        }
+        let (cost, proof) = (&search.cost(), &search.proof());
         let analysis = self.analysis;
         let deepest = analysis.paving_behind(class).0.depth;
         for depth in coarsest(analysis.robot.dof()).min(deepest)..=deepest {
@@ -216,6 +301,7 @@ impl<'a> Planner<'a> {
         {
             return Ok(path);
         }
+        let straight = [ends[0], cost.beside(&ends[0], &ends[1])];
         if proof.holds(&straight[0], &straight[1]) {
             return Ok(straight.to_vec());
         }

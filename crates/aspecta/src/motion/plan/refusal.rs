@@ -111,6 +111,9 @@ pub enum Refusal {
         /// The margins asked for.
         margins: Margins,
     },
+    /// The search was stopped.
+    #[error("undecided: the search was stopped before a path was found, and none is excluded")]
+    Stopped,
     /// A path was found, but one of its segments could not be proved.
     #[error("undecided: a path was found, but not proved from {pose:?} on")]
     Unproved {

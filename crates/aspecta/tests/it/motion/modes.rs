@@ -13,7 +13,7 @@ use aspecta::robot::LegIndex;
 fn five_bar() -> (Robot, Analysis, ModeGraph) {
     let robot = robot("five-bar");
     let analysis = analysed(&robot, 10, &[]);
-    let graph = ModeGraph::new(&analysis);
+    let graph = ModeGraph::new(&analysis, &Control::unwatched());
     (robot, analysis, graph)
 }
 
@@ -150,7 +150,7 @@ fn groups_of_aspects_that_may_be_several_are_not_proved() {
     let robot = robot("five-bar");
     let coarse = analysed(&robot, 5, &[]);
     assert!(coarse.classes.iter().any(|class| class.high.is_none()));
-    let graph = ModeGraph::new(&coarse);
+    let graph = ModeGraph::new(&coarse, &Control::unwatched());
     assert!(graph.groups.iter().any(|group| !graph.is_proved(group)));
     for aspect in &graph.aspects {
         let (class, found) = coarse.aspect(aspect.id).unwrap();
@@ -161,7 +161,7 @@ fn groups_of_aspects_that_may_be_several_are_not_proved() {
 /// The gaps between its cranks' ranges leave the IRB 360 one mode: there is nothing to cross to.
 #[test]
 fn limits_can_leave_nothing_to_cross_to() {
-    let graph = ModeGraph::new(&analysed(&robot("irb-360"), 5, &[]));
+    let graph = ModeGraph::new(&analysed(&robot("irb-360"), 5, &[]), &Control::unwatched());
     assert!(graph.crossings.is_empty());
     assert_eq!(graph.groups.len(), graph.aspects.len());
 }

@@ -63,7 +63,7 @@ fn boxes_are_held_as_samples_are() {
 fn separate_poses_may_need_changes_of_mode() {
     let robot = robot("five-bar");
     let analysis = analysed(&robot, 10, &[]);
-    let graph = ModeGraph::new(&analysis);
+    let graph = ModeGraph::new(&analysis, &Control::unwatched());
     let whole = |poses: &[[f64; 2]]| {
         let set = PoseSet::Poses(poses.iter().map(|p| p.to_vec()).collect());
         let found = traversability(&analysis, Some(&graph), set).unwrap();
