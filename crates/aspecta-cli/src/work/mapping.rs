@@ -155,7 +155,7 @@ impl Making {
         };
         let cancelled = || control.cancelled.load(Ordering::Relaxed);
         let mut sheets = Vec::new();
-        for id in wanted(&analysis)? {
+        for id in wanted(&analysis)?.into_iter().take_while(|_| !cancelled()) {
             match sheet(id) {
                 Ok(sheet) => sheets.push(sheet),
                 // What is done is kept.

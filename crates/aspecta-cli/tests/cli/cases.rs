@@ -432,3 +432,59 @@ fn the_distance_from_parallel_singularities_is_at_most_one() {
         assert!(0.0 < most && most <= 1.0, "{name}: {most}");
     }
 }
+
+/// How far two printers reach at z = 10 was computed independently: radii of 136.1 and 64.58.
+#[test]
+fn a_round_set_is_traversed_as_far_as_the_printer_reaches() {
+    let holds = |name: &str, radius: f64| {
+        let run =
+            output(&format!("traverse {} --disc 0,0,10 --radius {radius} --mode +++ --det -", case(name)));
+        let text = String::from_utf8(run.stdout).unwrap();
+        (run.status.code(), text.contains("yes, certified"), text.contains("no, certified"))
+    };
+    for (name, within, beyond) in [("kossel-plus", 136.0, 136.2), ("short-arm-printer", 64.5, 64.7)] {
+        assert_eq!(holds(name, within), (Some(0), true, false), "{name}");
+        assert_eq!(holds(name, beyond), (Some(1), false, true), "{name}");
+    }
+    let printer = case("kossel-plus");
+    let sound = output(&format!("traverse {printer} --cylinder 0,0,5:10 --radius 130 --mode +++ --det -"));
+    assert_eq!(sound.status.code(), Some(0), "{}", String::from_utf8_lossy(&sound.stdout));
+    let ball = output(&format!("traverse {printer} --ball 0,0,100 --radius 60 --mode +++ --det -"));
+    assert_eq!(ball.status.code(), Some(0), "{}", String::from_utf8_lossy(&ball.stdout));
+    for (arguments, why) in [
+        ("--disc 0,0,10", "--radius"),
+        ("--disc 0:1,0,10 --radius 3", "give one value of x"),
+        ("--disc 0,0,10 --radius -3", "give a positive number"),
+    ] {
+        let run = output(&format!("traverse {printer} {arguments}"));
+        let message = String::from_utf8(run.stderr).unwrap();
+        assert!(run.status.code() == Some(2) && message.contains(why), "{arguments}: {message}");
+    }
+    let none = stderr("traverse five-bar --ball 4,7 --radius 1");
+    assert!(none.contains("no coordinate z"), "{none}");
+}
+
+/// A straight line that can be driven is planned without looking for aspects.
+#[test]
+fn a_straight_way_is_planned_first() {
+    let plan = json(&format!("plan {} --from 0,0,-800 --to 200,0,-800 --mode --- --json", case("my-delta")));
+    assert!(plan["refusal"].is_null(), "{plan}");
+}
+
+#[test]
+fn budgets_govern_what_follows_the_aspects() {
+    // Bounds that have met end a run, however fine it might have been.
+    let fine = json("analyze five-bar --mode ++ --budget depth=20 --json");
+    assert_eq!(
+        (fine["run"]["stop"].as_str(), fine["run"]["depth"].as_u64() <= Some(14)),
+        (Some("exact"), true),
+        "{}",
+        fine["run"]
+    );
+    let cut = output("analyze five-bar --budget 1boxes");
+    assert_eq!(cut.status.code(), Some(1));
+    let few = output("cusps 3-rpr --boxes 1");
+    assert_eq!(few.status.code(), Some(1));
+    let told = stdout("analyze 3-rrr --fix x=-10,y=0 --deg");
+    assert!(told.contains("phi [deg]") && !told.contains("phi [rad]"), "{told}");
+}

@@ -57,14 +57,19 @@ pub fn domains(
         return Err(DomainError::TooFine { nodes: grid.len(), most: MOST_NODES });
     }
     let partition = Partition::new(&sheet, grid, control);
-    if control.is_cancelled() {
-        return Err(DomainError::Cancelled);
-    }
+    let go_on = || if control.is_cancelled() { Err(DomainError::Cancelled) } else { Ok(()) };
+    go_on()?;
     let all = partition.regions();
     let (regions, slivers) = all.split_at(all.iter().take_while(|region| region.is_resolved()).count());
     let cell = partition.labels.grid.measure();
     let measure_of = |regions: &[Region]| regions.iter().map(|r| r.nodes as f64 * cell).sum::<f64>();
+    let between = partition.thin.len() as f64 * cell;
+    let unresolved = Unresolved {
+        parts: slivers.len() + parts(&partition.labels.grid, &partition.thin),
+        measure: measure_of(slivers) + between,
+    };
     let images = partition.images(&all);
+    go_on()?;
     let adjacent = among(regions, partition.labels.adjacent());
     let beyond = Beyond::new(&sheet, &partition, regions, control).unwrap_or_default();
     let mut meeting = among(regions, images.meeting());
@@ -72,6 +77,8 @@ pub fn domains(
     let conflict = meeting.union(&beyond.undecided).copied().collect();
     let (uniqueness, complete) = uniqueness(analysis, &partition, regions, &adjacent, &conflict);
     let numbered = |pairs: &Pairs| pairs.iter().map(|&(a, b)| (number(a), number(b))).collect();
+    let agreement = agreement(&sheet, &partition, regions, options.samples, control);
+    go_on()?;
     let entry = &analysis.classes[class.index()];
     Ok(Domains {
         aspect,
@@ -79,22 +86,40 @@ pub fn domains(
         det_a: entry.det_a,
         unit: analysis.measure.clone(),
         cell: partition.labels.grid.step[..partition.labels.grid.axes()].to_vec(),
-        measure: measure_of(&all),
-        unresolved: Unresolved { parts: slivers.len(), measure: measure_of(slivers) },
+        measure: measure_of(&all) + between,
         regions: regions.iter().enumerate().map(|(k, r)| basic_region(&partition, number(k), r)).collect(),
         adjacent: numbered(&adjacent),
         coincidences: coincidences(&images, &beyond, &meeting),
         joined: numbered(&beyond.joined),
         undecided: numbered(&beyond.undecided),
         uniqueness,
-        complete,
+        complete: complete && unresolved.parts == 0 && agreement.disagreements.is_empty(),
+        unresolved,
         violations: violations(&sheet, &partition, &images, &beyond, regions.len()),
-        agreement: agreement(&sheet, &partition, regions, options.samples),
+        agreement,
         failed: partition.failed,
         labels: partition.labels,
         window: analysis.window.clone(),
         pose: text::Labels::pose(&analysis.robot, false),
     })
+}
+
+/// Into how many parts some nodes fall, of which neighbours, diagonal ones too, are in one.
+fn parts(grid: &Grid, nodes: &BTreeSet<usize>) -> usize {
+    let mut left = nodes.clone();
+    let mut parts = 0;
+    while let Some(first) = left.pop_first() {
+        parts += 1;
+        let mut open = vec![first];
+        while let Some(node) = open.pop() {
+            grid.within(node, 1, |other| {
+                if left.remove(&other) {
+                    open.push(other);
+                }
+            });
+        }
+    }
+    parts
 }
 
 /// The number of the region with this index.
@@ -198,12 +223,18 @@ fn violations(
     (0..regions).filter_map(on_grid).chain(off_grid).collect()
 }
 
-/// Compares the partition with the direct model at random poses.
-fn agreement(sheet: &Sheet<'_>, partition: &Partition, regions: &[Region], samples: usize) -> Agreement {
+/// Compares the partition with the direct model at random poses; once cancelled, at no more.
+fn agreement(
+    sheet: &Sheet<'_>,
+    partition: &Partition,
+    regions: &[Region],
+    samples: usize,
+    control: &Control<'_>,
+) -> Agreement {
     let poses = random_poses(&partition.labels, samples);
     let looked_at = |pose: &Pose| {
         let pose = &pose[..partition.labels.grid.dof()];
-        let joints = sheet.joints(pose)?;
+        let joints = sheet.joints(pose).filter(|_| !control.is_cancelled())?;
         let round = partition.labels.region_round(pose).map(|region| region as usize);
         let away = round.filter(|region| *region < regions.len()).map(|region| {
             let mut count = 1;

@@ -25,6 +25,7 @@ mod partition;
 mod result;
 mod sheet;
 pub mod slice;
+mod thin;
 mod uniqueness;
 
 pub use analysis::domains;

@@ -7,7 +7,7 @@ use crate::aspect::UnionFind;
 use crate::paving::{Control, Progress};
 use aspecta_robot::num::padded;
 use aspecta_robot::work;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Nodes a task looks at.
@@ -25,6 +25,8 @@ pub struct Partition {
     others: Vec<Pose>,
     /// Nodes at which the direct model failed: they count as having one solution.
     pub failed: usize,
+    /// Nodes next to which another part of the aspect passes that is thinner than a cell: they are in no region.
+    pub thin: BTreeSet<usize>,
 }
 
 /// A connected set of nodes with the same count.
@@ -59,9 +61,12 @@ impl Partition {
             first: Vec::with_capacity(nodes + 1),
             others: Vec::new(),
             failed: 0,
+            thin: BTreeSet::new(),
             labels: Labels { grid, region: vec![OUTSIDE; nodes] },
         };
         partition.solve(sheet, control);
+        partition.thin = partition.thin(sheet, control);
+        partition.thin.iter().for_each(|&node| partition.solutions[node] = 0);
         // Nodes, and after them their other poses.
         let mut sets = UnionFind::new(nodes + partition.others.len());
         partition.join_neighbours(sheet, &mut sets, control);
@@ -151,9 +156,14 @@ impl Partition {
         }
     }
 
+    /// Whether a node lies in the aspect.
+    pub(super) fn is_inside(&self, node: usize) -> bool {
+        self.solutions[node] != 0
+    }
+
     /// Whether two nodes lie in the aspect and have the same count.
-    fn are_alike(&self, a: usize, b: usize) -> bool {
-        self.solutions[a] != 0 && self.solutions[a] == self.solutions[b]
+    pub(super) fn are_alike(&self, a: usize, b: usize) -> bool {
+        self.is_inside(a) && self.solutions[a] == self.solutions[b]
     }
 
     /// Names the sets.

@@ -75,7 +75,8 @@ pub struct Domains {
     pub measure: f64,
     /// Its basic regions, largest first.
     pub regions: Vec<BasicRegion>,
-    /// The nodes in parts thinner than two cells, which could not be joined to a region.
+    /// The nodes in parts thinner than two cells, which could not be joined to a region, and, where two coordinates
+    /// vary, those next to which such a part passes between the nodes.
     pub unresolved: Unresolved,
     /// Pairs of regions that touch.
     pub adjacent: Vec<(RegionId, RegionId)>,
@@ -90,7 +91,8 @@ pub struct Domains {
     /// The maximal uniqueness domains, largest first. On a slice, its parts of uniqueness domains: none holds two regions of which it is
     /// undecided whether their images coincide, so there may be larger ones.
     pub uniqueness: Vec<UniquenessDomain>,
-    /// Whether `uniqueness` holds all of them.
+    /// Whether `uniqueness` holds all of them, as far as is seen: all sets of regions were looked at, nothing is
+    /// unresolved, and no pose looked at disagrees with the direct model.
     pub complete: bool,
     /// Two poses with one joint vector in one basic region, if found: Theorem 2 does not hold there.
     pub violations: Vec<Violation>,

@@ -128,6 +128,14 @@ impl<'a> Sheet<'a> {
         true
     }
 
+    /// How many direct solutions the joint vector of a pose has in the aspect, the pose among them; `None` outside the
+    /// aspect, and where the direct model fails.
+    pub fn count(&self, pose: &[f64]) -> Option<u8> {
+        let joints = self.joints(pose)?;
+        let mut count = 1;
+        self.others(pose, &joints, |_| count += 1).then_some(count)
+    }
+
     /// The other poses of the aspect with the joint vector of a pose; `None` outside the aspect.
     pub fn all_others(&self, pose: &[f64]) -> Option<ArrayVec<Pose, CAPACITY>> {
         let joints = self.joints(pose)?;

@@ -68,7 +68,7 @@ impl fmt::Display for AnalysisSummary<'_> {
 }
 
 fn write(out: &mut dyn Write, summary: AnalysisSummary<'_>) -> fmt::Result {
-    let AnalysisSummary { analysis, degrees, advice } = summary;
+    let AnalysisSummary { analysis, degrees, .. } = summary;
     let robot = &analysis.robot;
     let title = if robot.title.is_empty() { String::new() } else { format!(": {}", robot.title) };
     writeln!(
@@ -97,7 +97,7 @@ fn write(out: &mut dyn Write, summary: AnalysisSummary<'_>) -> fmt::Result {
     writeln!(out, "\n{}", paragraph(&run(analysis, degrees)))?;
     // Last, where a terminal shows it: how many there are, and why that is not known better.
     table_2(out, analysis)?;
-    doubts::write(out, analysis, &advice)
+    doubts::write(out, summary)
 }
 
 /// What was held, if anything.

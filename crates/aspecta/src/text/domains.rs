@@ -158,7 +158,13 @@ fn uniqueness(out: &mut dyn Write, found: &Domains, advice: &DomainsAdvice) -> f
     write!(out, "{table}")?;
     more(out, found.uniqueness.len(), advice)?;
     if !found.complete {
-        writeln!(out, "  there may be more: the search for sets of regions was cut short")?;
+        let seen = found.unresolved.parts == 0 && found.agreement.disagreements.is_empty();
+        let why = if seen {
+            "the search for sets of regions was cut short"
+        } else {
+            "not all regions are resolved"
+        };
+        writeln!(out, "  there may be more: {why}")?;
     }
     Ok(())
 }

@@ -50,6 +50,35 @@ fn slices_at_other_heights_agree_with_the_whole() {
     agree_with_the_whole(&[-0.62, 0.3, 0.7]);
 }
 
+/// At (−17.615863, −9.118162) the tip of a region with two solutions is 0.003 wide, a twentieth of a cell: poses there
+/// are said to lie in no region, and no list of regions to be complete.
+#[test]
+fn what_passes_between_the_nodes_is_part_of_no_region() {
+    let robot = robot("3-rrr");
+    let analysis = analyzed(&robot, &[(2, 0.0)], &["+++"], 11);
+    let found = partitioned(&analysis, first_of(&analysis, "+++", DetSign::Positive), 500, 100);
+    let pose = [-17.615863, -9.118162, 0.0];
+    assert_eq!(solutions(&analysis, &found, &pose), 2);
+    let region = |pose: &[f64]| found.labels.region_round(pose).and_then(|k| found.regions.get(k as usize));
+    assert!(region(&pose).is_none(), "{:?}", region(&pose));
+    // The wedge along its length, and beside it.
+    for t in 0..40 {
+        let x = -17.615863 + 0.012 * f64::from(t);
+        let along: Vec<f64> =
+            (0..200).map(|k| -9.118162 + 0.6 * (x + 17.615863) - 0.2 + 0.004 * f64::from(k)).collect();
+        for y in along {
+            if let Some(region) = region(&[x, y, 0.0]) {
+                assert_eq!(
+                    usize::from(region.solutions),
+                    solutions(&analysis, &found, &[x, y, 0.0]),
+                    "{x} {y}"
+                );
+            }
+        }
+    }
+    assert!(!found.complete && found.unresolved.parts > 1, "{:?}", found.unresolved);
+}
+
 #[track_caller]
 fn agree_with_the_whole(heights: &[f64]) {
     let robot = robot("3-rrr");
