@@ -185,6 +185,14 @@ impl<'a, T: Scalar, const D: usize> Body<'a, T, D> {
         kinds::reach(&self.robot.legs[j].actuator, d)
     }
 
+    /// What H of leg j is at most, given C − A in its frame: infinite where nothing else than [`Body::reach`] is known.
+    pub(super) fn most_reach(&self, j: usize, d: &[Interval; D]) -> f64 {
+        match self.own_of(j) {
+            Some(_) => f64::INFINITY,
+            None => kinds::most_reach(&self.robot.legs[j].actuator, d),
+        }
+    }
+
     /// Leg j with q given, at C − A = `span`. Where the leg's own coordinates are used q is one of them, and
     /// `q` is not looked at.
     pub(super) fn leg(&self, j: usize, span: &[T; D], q: T) -> LegState<T> {

@@ -156,7 +156,9 @@ impl<'a, const D: usize> Place<'a, D> {
             if let (Some(over), Some(middle)) =
                 (place.over.reach(j, &span.over), place.at_middle.reach(j, &span.at_middle))
             {
-                place.reach[j] = place.range(&over, middle, None);
+                let range = place.range(&over, middle, None);
+                let most = place.over.most_reach(j, &span.over.map(|x| x.value)).min(range.hi);
+                place.reach[j] = Interval { lo: range.lo.min(most), hi: most };
                 place.ascent[j] = std::array::from_fn(|a| over.gradient[a]);
             }
         }

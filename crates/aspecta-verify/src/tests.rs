@@ -1,6 +1,7 @@
 //! Certificates that hold, and certificates with planted faults.
 
 mod chains;
+mod planted;
 mod summits;
 
 use super::*;

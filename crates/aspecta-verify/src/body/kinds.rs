@@ -17,6 +17,19 @@ pub(super) fn reach<T: Scalar, const D: usize>(actuator: &Actuator, d: &[T; D]) 
     }
 }
 
+/// A bound of H that is sharp where the rod is too short to reach across: of a crank about the third axis,
+/// H = 4L²(M² − γ²) − (‖d‖² − L² − M²)². (At γ = M the discriminant touches zero.)
+pub(super) fn most_reach<const D: usize>(actuator: &Actuator, d: &[Interval; D]) -> f64 {
+    match (actuator, d.get(2)) {
+        (Actuator::Revolute(Revolute { crank, rod }), Some(across)) => {
+            (Interval::point(4.0) * crank.square() * (rod.square() - across.square())).hi
+        }
+        (Actuator::Revolute(_) | Actuator::Prismatic(_) | Actuator::Strut(_) | Actuator::Spherical(_), _) => {
+            f64::INFINITY
+        }
+    }
+}
+
 /// |∂f/∂q| per √H.
 pub(crate) fn slope_per_root(actuator: &Actuator) -> f64 {
     match actuator {
