@@ -28,7 +28,11 @@ fn folding(name: &str, length: f64) -> Robot {
 
 /// In the plane: checked at once.
 fn quick() -> Vec<Certificate> {
-    vec![COARSE.clone(), FOLDED.clone(), coarse(&folding("3-rrr", 10.0), &[(2, 0.1)], "+++", 7)]
+    vec![
+        COARSE.clone(),
+        coarse(&folding("five-bar", 6.0), &[], "++", 7),
+        coarse(&folding("3-rrr", 10.0), &[(2, 0.1)], "+++", 6),
+    ]
 }
 
 /// Folds in space, and chains with bends.
@@ -56,6 +60,9 @@ fn any_leaf<'a>(
     let mut fit: Vec<&mut Leaf> = leaves.filter(|leaf| fits(leaf)).collect();
     (!fit.is_empty()).then(|| fit.swap_remove(random.below(fit.len())))
 }
+
+/// How many kinds of faults there are; as many certificates have no divisor in common with it.
+const KINDS: usize = 10;
 
 /// Plants a fault, by number; its name, or nothing if the certificate has no place for it.
 fn plant(certificate: &mut Certificate, fault: usize, random: &mut Random) -> Option<&'static str> {
@@ -141,17 +148,18 @@ fn holds(sheet: &crate::certificate::Sheet, fits: impl Fn(&Leaf) -> bool) -> boo
 
 #[test]
 fn no_planted_fault_is_accepted() {
-    plant_all(&quick(), 60);
+    // In none of these a chart covers a box.
+    plant_all(&quick(), 15, KINDS - 1);
 }
 
 #[test]
 #[ignore = "20 minutes: a thousand faults, also in folds of a Delta and in chains of spherical robots"]
 fn no_fault_planted_in_charts_is_accepted() {
-    plant_all(&[quick(), slow()].concat(), 1000);
+    plant_all(&[quick(), slow()].concat(), 1000, KINDS);
 }
 
-/// Plants so many faults, of all kinds, in certificates by turns.
-fn plant_all(all: &[Certificate], cases: usize) {
+/// Plants so many faults, of so many kinds at least, in certificates by turns.
+fn plant_all(all: &[Certificate], cases: usize, kinds: usize) {
     let random = &mut Random::new(20);
     let mut planted = BTreeMap::<&str, usize>::new();
     for case in 0.. {
@@ -160,7 +168,7 @@ fn plant_all(all: &[Certificate], cases: usize) {
         }
         let original = &all[case % all.len()];
         let mut forged = original.clone();
-        let Some(name) = plant(&mut forged, random.below(10), random) else { continue };
+        let Some(name) = plant(&mut forged, case % KINDS, random) else { continue };
         let name_of_robot = &original.robot.name;
         // What cannot even be read is refused too.
         if let Ok(read) = Certificate::from_json(forged.to_json().unwrap().as_bytes()) {
@@ -169,5 +177,5 @@ fn plant_all(all: &[Certificate], cases: usize) {
         *planted.entry(name).or_default() += 1;
     }
     println!("{planted:?}");
-    assert!(planted.len() == 10, "{planted:?}");
+    assert!(planted.len() >= kinds, "{planted:?}");
 }
