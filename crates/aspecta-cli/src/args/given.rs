@@ -1,8 +1,9 @@
 //! The vectors a command is asked about: one from the command line or many from a CSV file.
 
 use crate::failure::Failure;
-use crate::input::{self, Columns};
+use crate::input::{self, Columns, Row, Rows};
 use clap::Args;
+use std::iter;
 
 /// One vector asked about.
 pub struct Query {
@@ -11,6 +12,9 @@ pub struct Query {
     /// Its numbers; angles in rad.
     pub values: Vec<f64>,
 }
+
+/// Vectors asked about, as they come.
+pub type Queries<'a> = Box<dyn Iterator<Item = Result<Query, Failure>> + 'a>;
 
 /// Poses.
 #[derive(Args)]
@@ -53,7 +57,7 @@ pub struct PosesOrJoints {
 
 impl Poses {
     /// Reads them, those of a file in one of `layouts`.
-    pub fn read(&self, layouts: &[Columns], degrees: bool) -> Result<Vec<Query>, Failure> {
+    pub fn read<'a>(&'a self, layouts: &'a [Columns], degrees: bool) -> Result<Queries<'a>, Failure> {
         read(("--pose", &self.pose), &self.file, layouts, degrees)
     }
 
@@ -65,14 +69,14 @@ impl Poses {
 
 impl JointVectors {
     /// Reads them, those of a file in one of `layouts`.
-    pub fn read(&self, layouts: &[Columns], degrees: bool) -> Result<Vec<Query>, Failure> {
+    pub fn read<'a>(&'a self, layouts: &'a [Columns], degrees: bool) -> Result<Queries<'a>, Failure> {
         read(("--q", &self.q), &self.file, layouts, degrees)
     }
 }
 
 impl PosesOrJoints {
     /// Reads them, those of a file in one of `layouts`.
-    pub fn read(&self, layouts: &[Columns], degrees: bool) -> Result<Vec<Query>, Failure> {
+    pub fn read<'a>(&'a self, layouts: &'a [Columns], degrees: bool) -> Result<Queries<'a>, Failure> {
         let one = if self.is_joints() { ("--q", &self.q) } else { ("--pose", &self.pose) };
         read(one, &self.file, layouts, degrees)
     }
@@ -90,16 +94,16 @@ impl PosesOrJoints {
 
 /// The value of an option, or the rows of `file` in one of `layouts`; clap sees to it that one of both is
 /// there.
-fn read(
+fn read<'a>(
     (option, value): (&str, &Option<String>),
-    file: &Option<String>,
-    layouts: &[Columns],
+    file: &'a Option<String>,
+    layouts: &'a [Columns],
     degrees: bool,
-) -> Result<Vec<Query>, Failure> {
+) -> Result<Queries<'a>, Failure> {
     if let Some(path) = file {
-        let rows = input::rows(path, layouts, degrees)?;
-        return Ok(rows.into_iter().map(|r| Query { line: Some(r.line), values: r.values }).collect());
+        let query = |row: Row| Query { line: Some(row.line), values: row.values };
+        return Ok(Box::new(Rows::open(path, layouts, degrees)?.map(move |row| row.map(query))));
     }
     let values = input::list(option, value.as_deref().unwrap_or_default(), &layouts[0], degrees)?;
-    Ok(vec![Query { line: None, values }])
+    Ok(Box::new(iter::once(Ok(Query { line: None, values }))))
 }

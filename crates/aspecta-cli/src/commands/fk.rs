@@ -7,7 +7,8 @@ use crate::args::mode::ModeArg;
 use crate::args::robot::RobotArg;
 use crate::failure::{Answer, Failure};
 use crate::input::Columns;
-use crate::show::solutions::{self, Unknown};
+use crate::output::print_each;
+use crate::show::solutions::{Solutions, Unknown};
 use crate::work::solve;
 use clap::Args;
 use std::io::Write;
@@ -32,9 +33,8 @@ impl Fk {
         let mode = self.mode.of(&robot)?;
         let layout = [Columns::joints(&robot)];
         let asked = self.joints.read(&layout, self.shown.deg)?;
-        let found = asked.into_iter().map(|query| solve::direct(&robot, query, mode));
-        let found = found.collect::<Result<Vec<_>, Failure>>()?;
-        solutions::print(out, &robot, Unknown::Pose, &found, self.shown.format(), self.shown.deg)?;
-        Ok(Answer::from(found.iter().all(|f| !f.solutions.is_empty() && f.complete == Some(true))))
+        let found = asked.map(|query| solve::direct(&robot, query?, mode));
+        let shown = Solutions { robot: &robot, unknown: Unknown::Pose, degrees: self.shown.deg };
+        print_each(out, &shown, self.shown.format(), found)
     }
 }

@@ -1,13 +1,14 @@
 //! `aspecta ik`: the inverse problem.
 
 use crate::args::format::ShownArgs;
-use crate::args::given::Poses;
+use crate::args::given::{Poses, Query};
 use crate::args::help::help;
 use crate::args::mode::ModeArg;
 use crate::args::robot::RobotArg;
 use crate::failure::{Answer, Failure};
 use crate::input::Columns;
-use crate::show::solutions::{self, Unknown};
+use crate::output::print_each;
+use crate::show::solutions::{Solutions, Unknown};
 use crate::work::solve::{self, Found};
 use clap::Args;
 use std::io::Write;
@@ -31,13 +32,13 @@ impl Ik {
         let robot = self.robot.load()?;
         let mode = self.mode.of(&robot)?;
         let layout = [Columns::pose(&robot)];
-        let mut found = Vec::new();
-        for query in self.poses.read(&layout, self.shown.deg)? {
+        let solved = |query: Query| {
             let mut solutions = solve::inverse(&robot, &query.values, query.line)?;
             solutions.retain(|s| mode.is_none_or(|m| s.mode == m));
-            found.push(Found { query, solutions, complete: None });
-        }
-        solutions::print(out, &robot, Unknown::Joints, &found, self.shown.format(), self.shown.deg)?;
-        Ok(Answer::from(found.iter().all(|f| !f.solutions.is_empty())))
+            Ok(Found { query, solutions, complete: None })
+        };
+        let found = self.poses.read(&layout, self.shown.deg)?.map(|query| solved(query?));
+        let shown = Solutions { robot: &robot, unknown: Unknown::Joints, degrees: self.shown.deg };
+        print_each(out, &shown, self.shown.format(), found)
     }
 }

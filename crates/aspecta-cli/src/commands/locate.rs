@@ -7,9 +7,9 @@ use crate::args::making::Making;
 use crate::args::mode::ModeArg;
 use crate::args::threads::Threads;
 use crate::failure::{Answer, Failure};
-use crate::input::Columns;
-use crate::output::note;
-use crate::show::places;
+use crate::input::{self, Columns};
+use crate::output::{note, print_each};
+use crate::show::places::{Located, Places};
 use crate::work::mapping::{Part, Source};
 use crate::work::solve::{self, Found};
 use crate::work::watch::watched;
@@ -44,12 +44,15 @@ pub struct Locate {
 impl Locate {
     pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
         let source = Source::new(&self.robot)?;
-        let found = self.configurations(source.robot())?;
+        let robot = source.robot().clone();
+        let layout = [self.layout(&robot)?];
+        let found = self.configurations(&robot, &layout)?;
+        // From a map they are answered as they come; a map that is to be made is that of the aspects they are in.
         let computed = matches!(source, Source::Robot(_));
+        let (held, coming) = if computed { (input::held(found)?, None) } else { (Vec::new(), Some(found)) };
         let (map, _) = watched(self.threads, |control| {
-            source.map(&self.making, Part::default(), false, control, |analysis| {
-                Ok(concerned(analysis, &found))
-            })
+            source
+                .map(&self.making, Part::default(), false, control, |analysis| Ok(concerned(analysis, &held)))
         })??;
         if computed {
             let (robot, name) = (&self.robot, &map.robot.name);
@@ -58,29 +61,41 @@ impl Locate {
                  answers at once"
             ));
         }
-        let known = places::print(out, &map, &found, self.shown.format(), self.shown.deg)?;
-        Ok(Answer::from(known && found.iter().all(|f| !f.solutions.is_empty())))
+        let all = held.into_iter().map(Ok).chain(coming.into_iter().flatten());
+        let located = all.map(|found| Ok(Located::new(&map, found?)));
+        let shown = Places { robot: &robot, degrees: self.shown.deg };
+        print_each(out, &shown, self.shown.format(), located)
+    }
+
+    /// The columns of the rows asked about.
+    fn layout(&self, robot: &Robot) -> Result<Columns, Failure> {
+        if self.joints && !self.given.is_file() {
+            return Err(Failure::Input("--joints is about the rows of --file: give one, or --q".into()));
+        }
+        Ok(if self.are_joints() { Columns::joints(robot) } else { Columns::pose(robot) })
+    }
+
+    fn are_joints(&self) -> bool {
+        self.joints || self.given.is_joints()
     }
 
     /// The inverse solutions of the poses, or the direct ones of the joint vectors, in the working mode if
     /// there is one.
-    fn configurations(&self, robot: &Robot) -> Result<Vec<Found>, Failure> {
+    fn configurations<'a>(
+        &'a self,
+        robot: &'a Robot,
+        layout: &'a [Columns],
+    ) -> Result<Box<dyn Iterator<Item = Result<Found, Failure>> + 'a>, Failure> {
         let mode = self.mode.of(robot)?;
-        if self.joints && !self.given.is_file() {
-            return Err(Failure::Input("--joints is about the rows of --file: give one, or --q".into()));
-        }
-        let joints = self.joints || self.given.is_joints();
-        let layout = if joints { Columns::joints(robot) } else { Columns::pose(robot) };
-        let asked = self.given.read(&[layout], self.shown.deg)?;
-        let solved = |query: Query| {
-            if joints {
+        let solved = move |query: Query| {
+            if self.are_joints() {
                 return solve::direct(robot, query, mode);
             }
             let mut solutions = solve::inverse(robot, &query.values, query.line)?;
             solutions.retain(|s| mode.is_none_or(|m| s.mode == m));
             Ok(Found { query, solutions, complete: None })
         };
-        asked.into_iter().map(solved).collect()
+        Ok(Box::new(self.given.read(layout, self.shown.deg)?.map(move |query| solved(query?))))
     }
 }
 

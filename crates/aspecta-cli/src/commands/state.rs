@@ -7,7 +7,7 @@ use crate::args::mode::ModeArg;
 use crate::args::robot::RobotArg;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
-use crate::output::{Align, Format, Labels, Table, det_a_unit, exact, json_of_each, note, number};
+use crate::output::{Align, Labels, Shown, Table, det_a_unit, exact, note, number, print_each};
 use crate::show::solutions::signs;
 use crate::work::solve;
 use aspecta::Kinematics;
@@ -57,17 +57,23 @@ impl State {
         let layouts = [pose.clone().and(&joints), pose];
         // A list is a pose alone, a row of a file may be either.
         let layouts = if self.poses.is_one() { &layouts[1..] } else { &layouts[..] };
-        let mut found = Vec::new();
-        for query in self.poses.read(layouts, self.shown.deg)? {
+        let solved = |query: Query| {
             let states = states(&robot, &query, q.as_deref(), mode)?;
-            found.push(Found { query, states });
-        }
-        match self.shown.format() {
-            Format::Json => print_json(out, &robot, &found)?,
-            Format::Csv => print_csv(out, &robot, &found)?,
-            Format::Table => print_table(out, &robot, &found, self.shown.deg)?,
-        }
-        Ok(Answer::from(found.iter().all(sound)))
+            let found = Found { query, states };
+            if let Some(state) = found.open() {
+                say_open(state, found.query.line);
+            }
+            Ok(found)
+        };
+        let found = self.poses.read(layouts, self.shown.deg)?.map(|query| solved(query?));
+        print_each(out, &States { robot: &robot, degrees: self.shown.deg }, self.shown.format(), found)
+    }
+}
+
+impl Found {
+    /// A state that is no configuration of the robot.
+    fn open(&self) -> Option<&kinematics::State> {
+        self.states.iter().find(|s| s.residual.is_nan() || s.residual > NOT_CLOSED)
     }
 }
 
@@ -84,29 +90,31 @@ fn states(
         None => query.values.split_at(query.values.len().min(n)),
     };
     if q.is_some() || !given.is_empty() {
-        return Ok(vec![robot.state(pose, given)?]);
+        return Ok(solve::answered(robot.state(pose, given), query.line)?.into_iter().collect());
     }
     let solutions = solve::inverse(robot, pose, query.line)?;
     let wanted = solutions.iter().filter(|s| mode.is_none_or(|m| s.mode == m));
     Ok(wanted.map(|s| robot.state(pose, &s.q)).collect::<Result<_, _>>()?)
 }
 
-/// Whether there are states and all are configurations; says so if not.
-fn sound(found: &Found) -> bool {
-    let place = found.query.line.map_or(String::new(), |line| format!("line {line}: "));
-    let open = found.states.iter().find(|s| s.residual.is_nan() || s.residual > NOT_CLOSED);
-    if let Some(state) = open {
-        note(&format!(
-            "{place}pose and joints are no configuration of the robot: the leg equations are off by {:.1e} \
-             of the legs' lengths squared",
-            state.residual
-        ));
-    }
-    open.is_none() && !found.states.is_empty()
+/// Says that a pose and joints do not belong together.
+fn say_open(state: &kinematics::State, line: Option<u64>) {
+    let place = line.map_or(String::new(), |line| format!("line {line}: "));
+    note(&format!(
+        "{place}pose and joints are no configuration of the robot: the leg equations are off by {:.1e} \
+         of the legs' lengths squared",
+        state.residual
+    ));
+}
+
+/// States, as they are shown.
+struct States<'a> {
+    robot: &'a Robot,
+    degrees: bool,
 }
 
 #[derive(Serialize)]
-struct States<'a> {
+struct AnswerInFull<'a> {
     states: Vec<InFull<'a>>,
 }
 
@@ -117,42 +125,57 @@ struct InFull<'a> {
     velocities: kinematics::Velocities,
 }
 
-fn print_json(out: &mut dyn Write, robot: &Robot, found: &[Found]) -> Result<(), Failure> {
-    let in_full = |state| InFull { state, velocities: kinematics::State::velocities(state, robot) };
-    let answers =
-        found.iter().map(|f| (f.query.line, States { states: f.states.iter().map(in_full).collect() }));
-    json_of_each(out, robot, answers.collect())
-}
+impl Shown for States<'_> {
+    type Found = Found;
 
-fn print_csv(out: &mut dyn Write, robot: &Robot, found: &[Found]) -> Result<(), Failure> {
-    let mut csv = csv::Writer::from_writer(out);
-    let names = Columns::pose(robot).and(&Columns::joints(robot)).names;
-    let labels = ["mode", "singularity", "det_a", "det_b", "condition_a", "condition_b", "parallel_measure"];
-    let serial = (1..=robot.dof()).map(|k| format!("serial_measure_{k}"));
-    let first = ["line".to_owned()].into_iter();
-    csv.write_record(
-        first
-            .chain(names)
+    fn robot(&self) -> &Robot {
+        self.robot
+    }
+
+    fn line(&self, found: &Found) -> Option<u64> {
+        found.query.line
+    }
+
+    fn is_positive(&self, found: &Found) -> bool {
+        !found.states.is_empty() && found.open().is_none()
+    }
+
+    fn json(&self, found: &Found) -> impl Serialize {
+        let in_full = |state| InFull { state, velocities: kinematics::State::velocities(state, self.robot) };
+        AnswerInFull { states: found.states.iter().map(in_full).collect() }
+    }
+
+    fn columns(&self) -> Vec<String> {
+        let names = Columns::pose(self.robot).and(&Columns::joints(self.robot)).names.into_iter();
+        let labels =
+            ["mode", "singularity", "det_a", "det_b", "condition_a", "condition_b", "parallel_measure"];
+        let serial = (1..=self.robot.dof()).map(|k| format!("serial_measure_{k}"));
+        names
             .chain(labels.map(String::from))
             .chain(serial)
-            .chain(["residual", "within_limits"].map(String::from)),
-    )?;
-    for f in found {
-        let line = f.query.line.map_or(String::new(), |l| l.to_string());
-        for s in &f.states {
+            .chain(["residual", "within_limits"].map(String::from))
+            .collect()
+    }
+
+    fn records(&self, found: &Found) -> Vec<Vec<String>> {
+        let record = |s: &kinematics::State| {
             let mode = s.mode.map_or(String::new(), |m| m.to_string());
             let labels = [mode, s.singularity.name().into()];
             let measures = [s.det_a, s.det_b, s.condition_a, s.condition_b, s.parallel_measure];
             let numbers = measures.iter().chain(&s.serial_measures).chain([&s.residual]).map(|x| exact(*x));
             let vectors = s.pose.iter().chain(&s.q).map(|x| exact(*x));
-            let within = s.within_limits.to_string();
-            csv.write_record(
-                [line.clone()].into_iter().chain(vectors).chain(labels).chain(numbers).chain([within]),
-            )?;
-        }
+            vectors.chain(labels).chain(numbers).chain([s.within_limits.to_string()]).collect()
+        };
+        found.states.iter().map(record).collect()
     }
-    csv.flush()?;
-    Ok(())
+
+    fn lines(&self, found: &Found) -> usize {
+        found.states.len()
+    }
+
+    fn table(&self, out: &mut dyn Write, found: &[Found]) -> Result<(), Failure> {
+        print_table(out, self.robot, found, self.degrees)
+    }
 }
 
 fn print_table(out: &mut dyn Write, robot: &Robot, found: &[Found], degrees: bool) -> Result<(), Failure> {

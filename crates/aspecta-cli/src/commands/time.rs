@@ -62,6 +62,20 @@ struct Motion<'a> {
     rows: Vec<Row>,
 }
 
+/// The most segments, each from rest to rest, on a grid of its own.
+const MOST_SEGMENTS: usize = 20_000;
+
+/// Whether a robot that stops at each line has a number of stops that makes sense.
+fn check_stops(check: &PathCheck) -> Result<(), Failure> {
+    let segments = check.pieces().len();
+    let many = || {
+        Failure::Input(format!(
+            "the robot would stop on {segments} segments, more than {MOST_SEGMENTS}; to go through them, give --joined spline"
+        ))
+    };
+    (segments <= MOST_SEGMENTS).then_some(()).ok_or_else(many)
+}
+
 impl Time {
     pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
         self.rate.check()?;
@@ -71,6 +85,7 @@ impl Time {
             ));
         }
         let check = self.path.check()?;
+        check_stops(&check)?;
         let robot = &check.robot;
         let limits = timing::limits(robot, &self.speed, &self.acceleration, self.path.deg)?;
         if !check.is_sound() {

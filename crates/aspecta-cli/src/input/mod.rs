@@ -1,9 +1,10 @@
 //! Robots, modes and numbers from the command line and from CSV files.
 
 mod fields;
+mod lines;
 mod rows;
 
-pub use rows::{Row, Rows, rows};
+pub use rows::{Row, Rows, held, rows};
 
 use crate::failure::Failure;
 use crate::output::{note, number};
@@ -93,10 +94,12 @@ pub fn list(option: &str, text: &str, columns: &Columns, degrees: bool) -> Resul
     Ok(values)
 }
 
-/// Whether a file may be a map, as far as its first bytes tell.
+/// Whether a file may be a map, as far as its first bytes tell. A pipe, which can be read but once, is none.
 pub fn is_map(path: &Path) -> bool {
     let mut mark = [0; 2];
-    File::open(path).and_then(|mut file| file.read_exact(&mut mark)).is_ok() && Map::is_map(&mark)
+    path.is_file()
+        && File::open(path).and_then(|mut file| file.read_exact(&mut mark)).is_ok()
+        && Map::is_map(&mark)
 }
 
 /// The robot of a catalogue name or of a file.

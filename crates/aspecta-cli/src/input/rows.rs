@@ -2,11 +2,15 @@
 
 use super::Columns;
 use super::fields::Fields;
+use super::lines::Lines;
 use crate::failure::Failure;
 use aspecta_view::words::count;
 use std::fmt::Display;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader};
+
+/// The most rows that are held at a time, where all of them are needed.
+const MOST_HELD: usize = 1_000_000;
 
 /// A line of a CSV file.
 pub struct Row {
@@ -18,19 +22,31 @@ pub struct Row {
     pub mode: Option<String>,
 }
 
-/// The rows of a CSV file (`-` is stdin), each with the columns of one of `layouts` (the first that fits).
+/// All rows of a CSV file: [`Rows`], within bounds.
+pub fn rows(path: &str, layouts: &[Columns], degrees: bool) -> Result<Vec<Row>, Failure> {
+    held(Rows::open(path, layouts, degrees)?)
+}
+
+/// All of what rows lead to, where it is needed at a time.
+pub fn held<T>(mut rows: impl Iterator<Item = Result<T, Failure>>) -> Result<Vec<T>, Failure> {
+    let all = rows.by_ref().take(MOST_HELD).collect::<Result<Vec<_>, _>>()?;
+    match rows.next() {
+        None => Ok(all),
+        Some(_) => Err(Failure::Input(format!(
+            "more than {MOST_HELD} rows: this command holds all of them at a time"
+        ))),
+    }
+}
+
+/// The rows of a CSV file (`-` is stdin), each with the columns of one of `layouts` (the first that fits), one at a
+/// time as they come. An input without any is an error.
 ///
 /// A first line without any number is a header: then columns are found by name, in any order, and others
 /// are ignored, so that what one command prints another can read. Empty lines and lines that start with
 /// `#` are skipped.
-pub fn rows(path: &str, layouts: &[Columns], degrees: bool) -> Result<Vec<Row>, Failure> {
-    Rows::open(path, layouts, degrees)?.collect()
-}
-
-/// [`rows`], one at a time as they come. An input without any is an error.
 pub struct Rows<'a> {
     name: &'a str,
-    lines: Box<dyn Iterator<Item = io::Result<String>>>,
+    lines: Lines,
     line: u64,
     fields: Fields,
     layouts: &'a [Columns],
@@ -45,18 +61,18 @@ pub struct Rows<'a> {
 impl<'a> Rows<'a> {
     /// Opens the file.
     pub fn open(path: &'a str, layouts: &'a [Columns], degrees: bool) -> Result<Self, Failure> {
-        let lines: Box<dyn Iterator<Item = _>> = match path {
-            "-" => Box::new(io::stdin().lock().lines()),
-            _ => {
-                let file =
-                    File::open(path).map_err(|e| Failure::Input(format!("cannot read `{path}`: {e}")))?;
-                Box::new(BufReader::new(file).lines())
-            }
-        };
-        let name = if path == "-" { "stdin" } else { path };
-        let fields = Fields::default();
+        if path == "-" {
+            return Ok(Self::of("stdin", Box::new(io::stdin().lock()), layouts, degrees));
+        }
+        let file = File::open(path).map_err(|e| Failure::Input(format!("cannot read `{path}`: {e}")))?;
+        Ok(Self::of(path, Box::new(BufReader::new(file)), layouts, degrees))
+    }
+
+    /// Those of an input, with its name in messages.
+    pub fn of(name: &'a str, input: Box<dyn BufRead>, layouts: &'a [Columns], degrees: bool) -> Self {
+        let (lines, fields) = (Lines::of(input), Fields::default());
         let (shape, unbounded, ended, any) = (None, false, false, false);
-        Ok(Self { name, lines, line: 0, fields, layouts, shape, degrees, unbounded, ended, any })
+        Self { name, lines, line: 0, fields, layouts, shape, degrees, unbounded, ended, any }
     }
 
     /// Takes numbers that are not finite too, which whoever reads the rows refuses: one of them does not end a stream.

@@ -4,7 +4,7 @@ mod answers;
 mod target;
 mod zeros;
 
-pub use answers::json_of_each;
+pub use answers::{Shown, print_each};
 pub use aspecta::text::{Align, Labels, Table, brief, det_a_unit, number, unsigned};
 pub use target::Target;
 

@@ -1,8 +1,9 @@
 //! Prints where configurations lie.
 
+use crate::args::given::Query;
 use crate::failure::Failure;
 use crate::input::Columns;
-use crate::output::{Align, Format, Labels, Table, exact, json_of_each};
+use crate::output::{Align, Labels, Shown, Table, exact};
 use crate::work::solve::Found;
 use aspecta::aspect::{AspectId, DetSign};
 use aspecta::domain::{Map, Nowhere, RegionId};
@@ -13,11 +14,11 @@ use std::io::Write;
 
 /// A configuration and where it lies.
 #[derive(Serialize)]
-struct Place<'a> {
+pub struct Place {
     mode: WorkingMode,
     det_a: Option<DetSign>,
-    pose: &'a [f64],
-    q: &'a [f64],
+    pose: Vec<f64>,
+    q: Vec<f64>,
     aspect: Option<AspectId>,
     region: Option<RegionId>,
     /// Direct solutions in the aspect of the joint vectors of the region.
@@ -29,20 +30,21 @@ struct Place<'a> {
     why: Option<String>,
 }
 
-impl<'a> Place<'a> {
-    fn new(map: &Map, s: &'a Solution) -> Self {
+impl Place {
+    fn new(map: &Map, s: Solution) -> Self {
+        let located = map.locate(&s.pose, s.mode);
         let mut place = Self {
             mode: s.mode,
             det_a: None,
-            pose: &s.pose,
-            q: &s.q,
+            pose: s.pose,
+            q: s.q,
             aspect: None,
             region: None,
             solutions: None,
             uniqueness: Vec::new(),
             why: None,
         };
-        let location = match map.locate(&s.pose, s.mode) {
+        let location = match located {
             Ok(location) => location,
             Err(nowhere) => return Self { why: Some(why(&map.robot, &nowhere)), ..place },
         };
@@ -70,71 +72,80 @@ fn why(robot: &Robot, nowhere: &Nowhere) -> String {
     }
 }
 
+/// A vector and where its configurations lie.
+pub struct Located {
+    query: Query,
+    complete: Option<bool>,
+    places: Vec<Place>,
+}
+
+impl Located {
+    /// Looks them up in a map.
+    pub fn new(map: &Map, found: Found) -> Self {
+        let places = found.solutions.into_iter().map(|s| Place::new(map, s)).collect();
+        Self { query: found.query, complete: found.complete, places }
+    }
+}
+
+/// Places of configurations, as they are shown.
+pub struct Places<'a> {
+    /// The robot.
+    pub robot: &'a Robot,
+    /// Whether people read angles in degrees.
+    pub degrees: bool,
+}
+
 #[derive(Serialize)]
 struct Answer<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     complete: Option<bool>,
-    places: Vec<Place<'a>>,
+    places: &'a [Place],
 }
 
-/// Prints where all configurations found lie. Whether all have a region.
-pub fn print(
-    out: &mut dyn Write,
-    map: &Map,
-    found: &[Found],
-    format: Format,
-    degrees: bool,
-) -> Result<bool, Failure> {
-    let places: Vec<Vec<Place<'_>>> =
-        found.iter().map(|f| f.solutions.iter().map(|s| Place::new(map, s)).collect()).collect();
-    let known = places.iter().flatten().all(|place| place.region.is_some());
-    match format {
-        Format::Json => print_json(out, map, found, places)?,
-        Format::Csv => print_csv(out, map, found, &places)?,
-        Format::Table => print_table(out, map, found, &places, degrees)?,
+impl Shown for Places<'_> {
+    type Found = Located;
+
+    fn robot(&self) -> &Robot {
+        self.robot
     }
-    Ok(known)
-}
 
-fn print_json(
-    out: &mut dyn Write,
-    map: &Map,
-    found: &[Found],
-    places: Vec<Vec<Place<'_>>>,
-) -> Result<(), Failure> {
-    let answers = found.iter().zip(places);
-    let answers = answers.map(|(f, places)| (f.query.line, Answer { complete: f.complete, places }));
-    json_of_each(out, &map.robot, answers.collect())
-}
-
-fn print_csv(
-    out: &mut dyn Write,
-    map: &Map,
-    found: &[Found],
-    places: &[Vec<Place<'_>>],
-) -> Result<(), Failure> {
-    let mut csv = csv::Writer::from_writer(out);
-    let names = Columns::pose(&map.robot).and(&Columns::joints(&map.robot)).names;
-    let labels = ["mode", "det_a", "aspect", "region", "solutions", "uniqueness", "why"].map(String::from);
-    csv.write_record(["line".to_owned()].into_iter().chain(names).chain(labels))?;
-    for (f, places) in found.iter().zip(places) {
-        for place in places {
-            let numbers = place.pose.iter().chain(place.q).map(|x| exact(*x));
-            csv.write_record([line(f)].into_iter().chain(numbers).chain(labels_of(place)))?;
-        }
+    fn line(&self, found: &Located) -> Option<u64> {
+        found.query.line
     }
-    csv.flush()?;
-    Ok(())
+
+    /// Whether all have a region.
+    fn is_positive(&self, found: &Located) -> bool {
+        !found.places.is_empty() && found.places.iter().all(|place| place.region.is_some())
+    }
+
+    fn json(&self, found: &Located) -> impl Serialize {
+        Answer { complete: found.complete, places: &found.places }
+    }
+
+    fn columns(&self) -> Vec<String> {
+        let labels =
+            ["mode", "det_a", "aspect", "region", "solutions", "uniqueness", "why"].map(String::from);
+        Columns::pose(self.robot).and(&Columns::joints(self.robot)).names.into_iter().chain(labels).collect()
+    }
+
+    fn records(&self, found: &Located) -> Vec<Vec<String>> {
+        let numbers =
+            |place: &Place| place.pose.iter().chain(&place.q).map(|x| exact(*x)).collect::<Vec<_>>();
+        let record = |place| numbers(place).into_iter().chain(labels_of(place)).collect();
+        found.places.iter().map(record).collect()
+    }
+
+    fn lines(&self, found: &Located) -> usize {
+        found.places.len()
+    }
+
+    fn table(&self, out: &mut dyn Write, found: &[Located]) -> Result<(), Failure> {
+        print_table(out, self.robot, found, self.degrees)
+    }
 }
 
-fn print_table(
-    out: &mut dyn Write,
-    map: &Map,
-    found: &[Found],
-    places: &[Vec<Place<'_>>],
-    degrees: bool,
-) -> Result<(), Failure> {
-    let (pose, joints) = (Labels::pose(&map.robot, degrees), Labels::joints(&map.robot, degrees));
+fn print_table(out: &mut dyn Write, robot: &Robot, found: &[Located], degrees: bool) -> Result<(), Failure> {
+    let (pose, joints) = (Labels::pose(robot, degrees), Labels::joints(robot, degrees));
     let right = |name: String| (name, Align::Right);
     let left = |name: &str| (name.to_owned(), Align::Left);
     let numbered = found.iter().any(|f| f.query.line.is_some());
@@ -143,10 +154,10 @@ fn print_table(
     let labels = [left("mode"), left("det A"), right("aspect".into()), right("region".into())];
     let more = [right("solutions".into()), left("uniqueness domains"), left("")];
     let mut table = Table::new(first.into_iter().chain(vectors).chain(labels).chain(more));
-    for (f, places) in found.iter().zip(places) {
-        for place in places {
-            let first = numbered.then(|| line(f));
-            let vectors = pose.numbers(place.pose).chain(joints.numbers(place.q));
+    for f in found {
+        for place in &f.places {
+            let first = f.query.line.map(|line| line.to_string());
+            let vectors = pose.numbers(&place.pose).chain(joints.numbers(&place.q));
             table.row(first.into_iter().chain(vectors).chain(labels_of(place)));
         }
     }
@@ -157,12 +168,8 @@ fn print_table(
     Ok(())
 }
 
-fn line(found: &Found) -> String {
-    found.query.line.map_or(String::new(), |line| line.to_string())
-}
-
 /// Mode, sign of det A, aspect, region, solutions, uniqueness domains, and why something is missing.
-fn labels_of(place: &Place<'_>) -> [String; 7] {
+fn labels_of(place: &Place) -> [String; 7] {
     fn text(number: Option<impl ToString>) -> String {
         number.map_or(String::new(), |number| number.to_string())
     }

@@ -3,7 +3,7 @@
 use crate::args::given::Query;
 use crate::failure::Failure;
 use crate::input::Columns;
-use crate::output::{Align, Format, Labels, Table, det_a_unit, exact, json_of_each, number};
+use crate::output::{Align, Labels, Shown, Table, det_a_unit, exact, number};
 use crate::work::solve::Found;
 use aspecta::kinematics::{Solution, WorkingMode};
 use aspecta::robot::{LegIndex, Robot};
@@ -20,20 +20,14 @@ pub enum Unknown {
     Pose,
 }
 
-/// Prints all answers.
-pub fn print(
-    out: &mut dyn Write,
-    robot: &Robot,
-    unknown: Unknown,
-    found: &[Found],
-    format: Format,
-    degrees: bool,
-) -> Result<(), Failure> {
-    match format {
-        Format::Json => print_json(out, robot, unknown, found),
-        Format::Csv => print_csv(out, robot, found),
-        Format::Table => print_table(out, robot, unknown, found, degrees),
-    }
+/// The solutions of vectors, as they are shown.
+pub struct Solutions<'a> {
+    /// The robot.
+    pub robot: &'a Robot,
+    /// What is looked for.
+    pub unknown: Unknown,
+    /// Whether people read angles in degrees.
+    pub degrees: bool,
 }
 
 /// The JSON answer to a vector; for vectors of a file it repeats the vector, `pose` for `ik`, `q` for `fk`.
@@ -48,23 +42,34 @@ struct Answer<'a> {
     solutions: &'a [Solution],
 }
 
-fn print_json(out: &mut dyn Write, robot: &Robot, unknown: Unknown, found: &[Found]) -> Result<(), Failure> {
-    let answers = found.iter().map(|f| {
-        let given = f.query.line.map(|_| f.query.values.as_slice());
-        let (pose, q) = if unknown == Unknown::Joints { (given, None) } else { (None, given) };
-        (f.query.line, Answer { pose, q, complete: f.complete, solutions: &f.solutions })
-    });
-    json_of_each(out, robot, answers.collect())
-}
+impl Shown for Solutions<'_> {
+    type Found = Found;
 
-fn print_csv(out: &mut dyn Write, robot: &Robot, found: &[Found]) -> Result<(), Failure> {
-    let mut csv = csv::Writer::from_writer(out);
-    let names = Columns::pose(robot).and(&Columns::joints(robot)).names;
-    let labels = ["mode", "det_a", "residual", "certified", "within_limits"].map(String::from);
-    csv.write_record(["line".to_owned()].into_iter().chain(names).chain(labels))?;
-    for f in found {
-        let line = f.query.line.map_or(String::new(), |l| l.to_string());
-        for s in &f.solutions {
+    fn robot(&self) -> &Robot {
+        self.robot
+    }
+
+    fn line(&self, found: &Found) -> Option<u64> {
+        found.query.line
+    }
+
+    fn is_positive(&self, found: &Found) -> bool {
+        !found.solutions.is_empty() && found.complete != Some(false)
+    }
+
+    fn json(&self, found: &Found) -> impl Serialize {
+        let given = found.query.line.map(|_| found.query.values.as_slice());
+        let (pose, q) = if self.unknown == Unknown::Joints { (given, None) } else { (None, given) };
+        Answer { pose, q, complete: found.complete, solutions: &found.solutions }
+    }
+
+    fn columns(&self) -> Vec<String> {
+        let labels = ["mode", "det_a", "residual", "certified", "within_limits"].map(String::from);
+        Columns::pose(self.robot).and(&Columns::joints(self.robot)).names.into_iter().chain(labels).collect()
+    }
+
+    fn records(&self, found: &Found) -> Vec<Vec<String>> {
+        let record = |s: &Solution| {
             let numbers = s.pose.iter().chain(&s.q).map(|x| exact(*x));
             let labels = [
                 s.mode.to_string(),
@@ -73,20 +78,22 @@ fn print_csv(out: &mut dyn Write, robot: &Robot, found: &[Found]) -> Result<(), 
                 s.certified.to_string(),
                 s.within_limits.to_string(),
             ];
-            csv.write_record([line.clone()].into_iter().chain(numbers).chain(labels))?;
-        }
+            numbers.chain(labels).collect()
+        };
+        found.solutions.iter().map(record).collect()
     }
-    csv.flush()?;
-    Ok(())
+
+    fn lines(&self, found: &Found) -> usize {
+        found.solutions.len()
+    }
+
+    fn table(&self, out: &mut dyn Write, found: &[Found]) -> Result<(), Failure> {
+        print_table(out, self, found)
+    }
 }
 
-fn print_table(
-    out: &mut dyn Write,
-    robot: &Robot,
-    unknown: Unknown,
-    found: &[Found],
-    degrees: bool,
-) -> Result<(), Failure> {
+fn print_table(out: &mut dyn Write, shown: &Solutions<'_>, found: &[Found]) -> Result<(), Failure> {
+    let Solutions { robot, unknown, degrees } = *shown;
     let (pose, joints) = (Labels::pose(robot, degrees), Labels::joints(robot, degrees));
     let (given, model) = if unknown == Unknown::Joints { (pose, "inverse") } else { (joints, "direct") };
     let total: usize = found.iter().map(|f| f.solutions.len()).sum();
@@ -98,7 +105,7 @@ fn print_table(
         _ => writeln!(out, "{}: {solutions} of {}", robot.name, count(found.len(), "row", "rows"))?,
     }
     if total > 0 {
-        write!(out, "{}", table(robot, unknown, found, degrees))?;
+        write!(out, "{}", table(shown, found))?;
     }
     let open: Vec<&Found> = found.iter().filter(|f| f.complete == Some(false)).collect();
     if !open.is_empty() {
@@ -118,7 +125,8 @@ fn print_table(
     Ok(())
 }
 
-fn table(robot: &Robot, unknown: Unknown, found: &[Found], degrees: bool) -> Table {
+fn table(shown: &Solutions<'_>, found: &[Found]) -> Table {
+    let Solutions { robot, unknown, degrees } = *shown;
     let (pose, joints) = (Labels::pose(robot, degrees), Labels::joints(robot, degrees));
     let wanted = if unknown == Unknown::Joints { &joints } else { &pose };
     let numbered = found.iter().any(|f| f.query.line.is_some());

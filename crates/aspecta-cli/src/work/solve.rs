@@ -4,7 +4,7 @@ use crate::args::given::Query;
 use crate::failure::Failure;
 use crate::output::{note, number};
 use aspecta::Kinematics;
-use aspecta::kinematics::{DirectSolutions, Solution, WorkingMode};
+use aspecta::kinematics::{DirectSolutions, KinematicsError, Solution, WorkingMode};
 use aspecta::robot::Robot;
 
 /// A vector asked about and its solutions.
@@ -20,7 +20,7 @@ pub struct Found {
 /// Returns all inverse solutions at a pose, given alone or in a line of a file; says why if there are none, which
 /// is an answer.
 pub fn inverse(robot: &Robot, pose: &[f64], line: Option<u64>) -> Result<Vec<Solution>, Failure> {
-    let solutions = robot.inverse(pose)?;
+    let Some(solutions) = answered(robot.inverse(pose), line)? else { return Ok(Vec::new()) };
     if solutions.is_empty() {
         let place = line.map_or("the pose is ".to_owned(), |line| format!("line {line}: "));
         note(&format!("{place}{}", out_of_reach(robot, pose)?));
@@ -39,16 +39,10 @@ pub fn within_reach(robot: &Robot, pose: &[f64]) -> Result<Vec<Solution>, Failur
 
 /// Returns all direct solutions of a joint vector, or those in a working mode.
 pub fn direct(robot: &Robot, query: Query, mode: Option<WorkingMode>) -> Result<Found, Failure> {
-    let DirectSolutions { mut solutions, complete } =
-        match (robot.direct_certified(&query.values), query.line) {
-            (Ok(found), _) => found,
-            (Err(e), None) => return Err(e.into()),
-            // One bad row does not cost the others.
-            (Err(e), Some(line)) => {
-                note(&format!("line {line}: {e}"));
-                return Ok(Found { query, solutions: Vec::new(), complete: None });
-            }
-        };
+    let Some(found) = answered(robot.direct_certified(&query.values), query.line)? else {
+        return Ok(Found { query, solutions: Vec::new(), complete: None });
+    };
+    let DirectSolutions { mut solutions, complete } = found;
     solutions.retain(|s| mode.is_none_or(|m| s.mode == m));
     if solutions.is_empty() {
         let place = query.line.map_or(String::new(), |line| format!("line {line}: "));
@@ -57,6 +51,19 @@ pub fn direct(robot: &Robot, query: Query, mode: Option<WorkingMode>) -> Result<
         note(&format!("{place}no direct solution{which}{proof}"));
     }
     Ok(Found { query, solutions, complete: Some(complete) })
+}
+
+/// What is found of a vector given alone or in a line of a file; there, one that cannot be asked about does not cost
+/// the others: it is named, and has no answer.
+pub fn answered<T>(found: Result<T, KinematicsError>, line: Option<u64>) -> Result<Option<T>, Failure> {
+    match (found, line) {
+        (Ok(found), _) => Ok(Some(found)),
+        (Err(e), None) => Err(e.into()),
+        (Err(e), Some(line)) => {
+            note(&format!("line {line}: {e}"));
+            Ok(None)
+        }
+    }
 }
 
 /// Returns which legs do not reach `pose`, in a sentence.

@@ -10,6 +10,7 @@ mod domains;
 mod explore;
 mod export;
 mod follow;
+mod hostile;
 mod json;
 mod locate;
 mod people;

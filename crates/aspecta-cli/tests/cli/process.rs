@@ -24,9 +24,8 @@ fn a_broken_pipe_is_not_an_error() {
         let mut child = spawn(&arguments[..if format.is_empty() { 4 } else { 5 }]);
         drop(child.stdout.take());
         let mut stdin = child.stdin.take().unwrap();
-        for _ in 0..2000 {
-            stdin.write_all(b"4,7\n").unwrap();
-        }
+        // It may have ended by then.
+        let _ = stdin.write_all(&b"4,7\n".repeat(2000));
         drop(stdin);
         assert_eq!(messages(&mut child), "", "{format}");
         assert!(child.wait().unwrap().success());
