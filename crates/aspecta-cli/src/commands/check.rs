@@ -3,7 +3,7 @@
 use crate::failure::{Answer, Failure};
 use crate::input::warn_of_mixed_units;
 use crate::show::doubts::warn_of_architecture;
-use aspecta::robot::{FileError, Robot};
+use aspecta::robot::Robot;
 use aspecta_view::words::count;
 use clap::Args;
 use std::io::{self, Write};
@@ -19,7 +19,7 @@ pub struct Check {
 impl Check {
     pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
         let (robot, file) = if self.file == Path::new("-") {
-            (from_stdin()?, "stdin".to_owned())
+            (Robot::read(io::stdin().lock(), "stdin")?, "stdin".to_owned())
         } else {
             (Robot::load(&self.file)?, self.file.display().to_string())
         };
@@ -30,11 +30,4 @@ impl Check {
         warn_of_architecture(&robot);
         Ok(Answer::Yes)
     }
-}
-
-fn from_stdin() -> Result<Robot, FileError> {
-    let file = "stdin";
-    let text = io::read_to_string(io::stdin().lock())
-        .map_err(|reason| FileError::Unreadable { file: file.to_owned(), reason })?;
-    Robot::from_toml(&text, file)
 }

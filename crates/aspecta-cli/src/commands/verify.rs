@@ -84,9 +84,10 @@ fn certificate(path: &Path) -> Result<Certificate, Failure> {
     })
 }
 
-/// Whether a file that is no JSON is a robot file, by its name if it has mistakes.
+/// Whether a file that is no JSON is a robot file, by its name if it has mistakes. A pipe cannot be read again.
 fn is_robot_file(path: &Path) -> bool {
-    path.extension().is_some_and(|extension| extension == "toml") || Robot::load(path).is_ok()
+    path.extension().is_some_and(|extension| extension == "toml")
+        || path.is_file() && Robot::load(path).is_ok()
 }
 
 /// Whether a robot of the catalogue has this one's name and is another.

@@ -8,7 +8,7 @@ use crate::work::watch::{abandoned_if_cancelled, within_seconds};
 use aspecta::aspect::{Analysis, AspectId, DetSign, Options, analyze};
 use aspecta::domain::boundary::Boundary;
 use aspecta::domain::characteristic::Characteristic;
-use aspecta::domain::{DomainOptions, Domains, Map, MappedAspect, Surfaces, domains, slice};
+use aspecta::domain::{DomainOptions, Domains, Map, MapError, MappedAspect, Surfaces, domains, slice};
 use aspecta::kinematics::WorkingMode;
 use aspecta::paving::{Control, Stop};
 use aspecta::robot::{FileError, Robot};
@@ -66,9 +66,9 @@ impl Source {
             let robot = input::robot(name_or_path).map_err(|failure| neither(name_or_path, failure))?;
             return Ok(Self::Robot(robot));
         }
-        let refused = |why: String| Failure::Input(format!("`{name_or_path}`: {why}"));
-        let file = std::fs::read(name_or_path).map_err(|e| refused(e.to_string()))?;
-        Ok(Self::Map(Box::new(Map::from_bytes(&file).map_err(|e| refused(advice::of_map(&e)))?)))
+        let refused =
+            |error: MapError| Failure::Input(format!("`{name_or_path}`: {}", advice::of_map(&error)));
+        Ok(Self::Map(Box::new(Map::load(name_or_path.as_ref()).map_err(refused)?)))
     }
 
     /// The robot.

@@ -1,6 +1,6 @@
 //! Input without end, or larger than any use: what is answered, and that it is done in little memory.
 
-use crate::output;
+use crate::{aspecta, output};
 use assert_cmd::cargo::CommandCargoExt;
 use serde_json::Value;
 use std::fs;
@@ -177,4 +177,56 @@ fn an_interrupt_ends_a_stream_at_once() {
         assert!(!child.wait().unwrap().success(), "{arguments}");
         drop(stdin);
     }
+}
+
+#[test]
+fn a_robot_file_that_is_too_large_is_refused() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("large.toml");
+    fs::write(&path, "[[legs]]\n".repeat(1_600_000)).unwrap();
+    for command in ["check", "analyze", "verify --robot five-bar"] {
+        let output = aspecta(command).arg(&path).output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        let complaint = "large.toml: larger than the 1024 KiB that a robot file may hold";
+        assert!(command.starts_with("verify") || said.contains(complaint), "{command}: {said}");
+    }
+    let (code, _, said) = fed("check -", &[b' '; 4096], usize::MAX);
+    assert_eq!(code, Some(2), "{said}");
+    assert!(said.contains("stdin: larger than the 1024 KiB"), "{said}");
+}
+
+/// Devices and pipes are read no further than files.
+#[cfg(unix)]
+#[test]
+fn a_robot_file_that_has_no_end_is_refused() {
+    for command in ["check /dev/zero", "ik /dev/zero --pose 4,7", "locate /dev/zero --pose 4,7"] {
+        let output = output(command);
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.contains("/dev/zero: larger than the 1024 KiB"), "{command}: {said}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_robot_may_come_through_a_pipe() {
+    let directory = tempfile::tempdir().unwrap();
+    let pipe = directory.path().join("pipe");
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let text = crate::stdout("robots show five-bar");
+    let writer = thread::spawn({
+        let pipe = pipe.clone();
+        move || fs::write(pipe, text)
+    });
+    let output = aspecta("ik --pose 4,7").arg(&pipe).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    writer.join().unwrap().unwrap();
+    // What is no certificate is not read a second time.
+    let writer = thread::spawn({
+        let pipe = pipe.clone();
+        move || fs::write(pipe, "no certificate")
+    });
+    assert_eq!(aspecta("verify").arg(&pipe).output().unwrap().status.code(), Some(2));
+    writer.join().unwrap().unwrap();
 }

@@ -18,6 +18,12 @@ pub enum FileError {
         #[source]
         reason: std::io::Error,
     },
+    /// The file is too large for a robot.
+    #[error("{file}: larger than the {} KiB that a robot file may hold", super::LARGEST >> 10)]
+    TooLarge {
+        /// Path, as given.
+        file: String,
+    },
     /// Neither a built-in robot nor a file.
     #[error("`{name}` is neither a built-in robot nor a file{}; built-in robots: {}", suggest(.closest), super::catalogue_names())]
     UnknownRobot {

@@ -18,8 +18,13 @@ pub use words::is_unprintable;
 
 use super::{Robot, catalogue};
 use serde::Deserialize;
+use std::fs::File;
+use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 use toml::de::{DeTable, Deserializer};
+
+/// The largest file that is read, in bytes: a thousand times what a robot of six legs needs.
+const LARGEST: u64 = 1 << 20;
 
 fn catalogue_names() -> String {
     let names: Vec<_> = catalogue::all().iter().map(|e| e.name).collect();
@@ -70,13 +75,30 @@ impl Robot {
     /// The robot of a file.
     ///
     /// # Errors
-    /// [`FileError::Unreadable`] or [`FileError::Invalid`].
+    /// [`FileError::Unreadable`], [`FileError::TooLarge`] or [`FileError::Invalid`].
     pub fn load(path: &Path) -> Result<Self, FileError> {
         let file = path.display().to_string();
-        match std::fs::read_to_string(path) {
-            Ok(text) => Self::from_toml(&text, &file),
+        match File::open(path) {
+            Ok(input) => Self::read(input, &file),
             Err(reason) => Err(FileError::Unreadable { file, reason }),
         }
+    }
+
+    /// The robot that an input describes, of which no more is read than the largest file may hold. `file` is its name
+    /// in messages.
+    ///
+    /// # Errors
+    /// As [`Robot::load`].
+    pub fn read(input: impl Read, file: &str) -> Result<Self, FileError> {
+        let mut text = Vec::new();
+        let unreadable = |reason| FileError::Unreadable { file: file.to_owned(), reason };
+        input.take(LARGEST + 1).read_to_end(&mut text).map_err(unreadable)?;
+        if text.len() as u64 > LARGEST {
+            return Err(FileError::TooLarge { file: file.to_owned() });
+        }
+        let text =
+            str::from_utf8(&text).map_err(|e| unreadable(io::Error::new(ErrorKind::InvalidData, e)))?;
+        Self::from_toml(text, file)
     }
 
     /// The built-in robot of that name, else the robot of that file.

@@ -12,13 +12,15 @@ use aspecta_robot::chart::Chart;
 pub use aspecta_robot::constraint::Scale;
 use aspecta_robot::{Robot, Window, WorkingMode};
 use serde::{Deserialize, Serialize};
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 /// Version of the file format; raised when a field changes its meaning or goes away.
 pub const FORMAT_VERSION: u32 = 2;
 
-/// The largest file that is read, in bytes.
-const LARGEST: u64 = 1 << 31;
+/// The largest file that is read, in bytes: more than an analysis of as many boxes as there may be writes, some 16 bytes each.
+const LARGEST: u64 = 1 << 30;
 
 /// Bounds on the numbers of aspects and what proves them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -102,12 +104,10 @@ pub enum CertificateError {
         error: std::io::Error,
     },
     /// It is too large for this program.
-    #[error("`{}` holds {size} bytes, more than the {LARGEST} that are read", path.display())]
-    Size {
+    #[error("`{}`: larger than the {} MiB that a certificate may hold", path.display(), LARGEST >> 20)]
+    TooLarge {
         /// The file.
         path: PathBuf,
-        /// Its size.
-        size: u64,
     },
     /// It is not the JSON of a certificate; the message says where.
     #[error("not a certificate, or damaged: {0}")]
@@ -130,11 +130,12 @@ impl Certificate {
     /// [`CertificateError`]
     pub fn load(path: &Path) -> Result<Self, CertificateError> {
         let unreadable = |error| CertificateError::Read { path: path.to_owned(), error };
-        let size = std::fs::metadata(path).map_err(unreadable)?.len();
-        if size > LARGEST {
-            return Err(CertificateError::Size { path: path.to_owned(), size });
+        let mut text = Vec::new();
+        File::open(path).and_then(|f| f.take(LARGEST + 1).read_to_end(&mut text)).map_err(unreadable)?;
+        if text.len() as u64 > LARGEST {
+            return Err(CertificateError::TooLarge { path: path.to_owned() });
         }
-        Self::from_json(&std::fs::read(path).map_err(unreadable)?)
+        Self::from_json(&text)
     }
 
     /// The certificate in a JSON text.

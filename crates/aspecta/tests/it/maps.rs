@@ -42,6 +42,14 @@ fn packed(text: &str) -> Vec<u8> {
     file.finish().unwrap()
 }
 
+/// A few bytes that unpack to many.
+#[test]
+#[ignore = "10 s and 1 GiB of memory: unpacks as much as a map may hold, and more"]
+fn no_more_is_unpacked_than_a_map_may_hold() {
+    let bomb = packed(&" ".repeat((1 << 30) + 1));
+    assert!(bomb.len() < 1 << 23 && matches!(Map::from_bytes(&bomb), Err(MapError::TooLarge)));
+}
+
 /// Random poses: the map names the aspect in whose certified cell the pose lies, after a journey through its file too.
 #[test]
 fn a_pose_lies_in_the_aspect_that_the_analysis_says() {

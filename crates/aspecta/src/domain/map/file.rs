@@ -13,7 +13,9 @@ use flate2::bufread::GzDecoder;
 use flate2::write::GzEncoder;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
-use std::io::{self, Read, Write};
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Read, Write};
+use std::path::Path;
 
 /// Version of the file format; raised when a field changes its meaning or goes away.
 pub const MAP_VERSION: u32 = 1;
@@ -31,6 +33,9 @@ pub enum MapError {
     /// Not compressed, or damaged.
     #[error("damaged, or not a map of a robot's aspects: {0}")]
     Damaged(#[from] io::Error),
+    /// It is too large for this program.
+    #[error("it unpacks to more than the {} MiB that a map may hold", LARGEST >> 20)]
+    TooLarge,
     /// It is not the JSON of a map; the message says where.
     #[error("not a map of a robot's aspects: {0}")]
     Form(#[from] serde_json::Error),
@@ -140,17 +145,32 @@ impl Map {
         Ok(packed.finish()?)
     }
 
+    /// Reads the file at `path`.
+    ///
+    /// # Errors
+    /// As [`Map::from_bytes`].
+    pub fn load(path: &Path) -> Result<Self, MapError> {
+        Self::read(BufReader::new(File::open(path)?))
+    }
+
     /// Reads a file.
     ///
     /// # Errors
     /// [`MapError`] if it is damaged, of another kind or version, or its parts do not fit together.
     pub fn from_bytes(file: &[u8]) -> Result<Self, MapError> {
+        Self::read(file)
+    }
+
+    fn read(file: impl BufRead) -> Result<Self, MapError> {
         let mut text = Vec::new();
         // Reading to the end checks length and check sum.
-        let mut packed = GzDecoder::new(file).take(LARGEST);
+        let mut packed = GzDecoder::new(file).take(LARGEST + 1);
         packed.read_to_end(&mut text)?;
-        if !packed.into_inner().into_inner().is_empty() {
-            return Err(MapError::Damaged(io::Error::other("it goes on after its end, or is too large")));
+        if text.len() as u64 > LARGEST {
+            return Err(MapError::TooLarge);
+        }
+        if !packed.into_inner().into_inner().fill_buf()?.is_empty() {
+            return Err(MapError::Damaged(io::Error::other("it goes on after its end")));
         }
         let Head { map_version: found } = serde_json::from_slice(&text)?;
         if found != MAP_VERSION {

@@ -246,6 +246,15 @@ fn files_that_cannot_be_read() {
 }
 
 #[test]
+fn no_more_is_read_than_a_robot_file_may_hold() {
+    let endless = Robot::read(std::io::repeat(b'#'), "endless.toml");
+    assert!(matches!(endless, Err(FileError::TooLarge { file }) if file == "endless.toml"));
+    let largest = format!("{PLANE}#{}", " ".repeat((1 << 20) - PLANE.len() - 1));
+    assert!(Robot::read(largest.as_bytes(), "largest.toml").is_ok());
+    assert!(Robot::read(format!("{largest} ").as_bytes(), "larger.toml").is_err());
+}
+
+#[test]
 fn names_are_resolved_or_suggested() {
     assert_eq!(Robot::resolve("five-bar").unwrap().name, "five-bar");
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots/delta.toml");
