@@ -3,6 +3,7 @@
 use super::format::hint;
 use crate::RobotError;
 use crate::num::written;
+use std::borrow::Cow;
 use std::fmt;
 
 /// Why a robot could not be had.
@@ -65,15 +66,29 @@ impl fmt::Display for Mistake {
         write!(f, "{}:{}:{}: ", self.file, self.line, self.column)?;
         if !self.key.is_empty() {
             let equals = if self.value.is_empty() { "" } else { " = " };
-            write!(f, "{}{equals}{}: ", self.key, self.value)?;
+            write!(f, "{}{equals}{}: ", short(&self.key), short(&self.value))?;
         }
         let number = self.line.to_string();
         let gutter = " ".repeat(number.len());
-        writeln!(f, "{}\n{gutter} |\n{number} | {}", self.problem, self.source_line)?;
+        let is_long = self.source_line.chars().nth(SHOWN).is_some();
+        let skipped = if is_long { self.column.saturating_sub(SHOWN / 2) } else { 0 };
+        let line: String = self.source_line.chars().skip(skipped).collect();
+        writeln!(f, "{}\n{gutter} |\n{number} | {}", self.problem, short(&line))?;
         // Tabs stay tabs, so that the underline stands below its place.
-        let lead = self.source_line.chars().take(self.column - 1);
+        let lead = line.chars().take(self.column - 1 - skipped);
         let lead: String = lead.map(|c| if c == '\t' { c } else { ' ' }).collect();
-        write!(f, "{gutter} | {lead}{}", "^".repeat(self.width))
+        write!(f, "{gutter} | {lead}{}", "^".repeat(self.width.min(SHOWN)))
+    }
+}
+
+/// The most characters of a key, a value or a line of a file that are printed.
+const SHOWN: usize = 200;
+
+/// A text of which no more is left than is printed.
+fn short(text: &str) -> Cow<'_, str> {
+    match text.char_indices().nth(SHOWN) {
+        Some((end, _)) => format!("{}…", &text[..end]).into(),
+        None => text.into(),
     }
 }
 
@@ -87,10 +102,10 @@ impl std::error::Error for Mistake {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Problem {
     /// Not TOML.
-    #[error("this is not TOML: {0}; if the file looks right up to here, it may have been cut off")]
+    #[error("this is not TOML: {}; if the file looks right up to here, it may have been cut off", short(.0))]
     Syntax(String),
     /// A key that stands twice in a table.
-    #[error("`{0}` is given a second time; keep one of them")]
+    #[error("`{}` is given a second time; keep one of them", short(.0))]
     DuplicateKey(String),
     /// A name without letters.
     #[error("the name is empty; {}", hint("name"))]
@@ -129,7 +144,7 @@ pub enum Problem {
         reason: String,
     },
     /// A string for a number and the like.
-    #[error("wrong type: {0}")]
+    #[error("wrong type: {}", short(.0))]
     WrongType(String),
     /// A vector of the wrong length.
     #[error("the legs of a `{platform}` live in {wanted} dimensions: give {wanted} numbers, not {found}")]

@@ -97,8 +97,26 @@ fn keys_taken(tree: &DeTable<'_>, span: &Span<usize>) -> Option<&'static [&'stat
 /// of the key or of a table's header).
 fn key_at(tree: &DeTable<'_>, span: &Span<usize>) -> (String, bool) {
     let mut best = Found { length: usize::MAX, key: String::new(), is_value: false };
-    search_table(tree, "", span, &mut best);
+    search_table(tree, &mut Vec::new(), span, &mut best);
     (best.key, best.is_value)
+}
+
+/// A step from a table or list into it.
+#[derive(Clone, Copy, PartialEq)]
+enum Step<'a> {
+    Key(&'a str),
+    /// From 0.
+    Item(usize),
+}
+
+/// Steps as they are written: `legs[2].actuator`.
+fn key_of(path: &[Step<'_>]) -> String {
+    let step = |(k, step): (usize, &Step<'_>)| match step {
+        Step::Key(name) if k == 0 => (*name).to_owned(),
+        Step::Key(name) => format!(".{name}"),
+        Step::Item(item) => format!("[{}]", item + 1),
+    };
+    path.iter().enumerate().map(step).collect()
 }
 
 /// The shortest span met so far that holds the wanted one.
@@ -109,34 +127,42 @@ struct Found {
 }
 
 impl Found {
-    fn offer(&mut self, candidate: Span<usize>, span: &Span<usize>, key: &str, is_value: bool) {
+    fn offer(&mut self, candidate: Span<usize>, span: &Span<usize>, path: &[Step<'_>], is_value: bool) {
         // The file as a whole has an empty span: no key holds it, whichever comes first.
         let holds = !span.is_empty() && candidate.start <= span.start && span.end <= candidate.end;
         // On a tie the deeper one, which comes later, is meant.
         if holds && candidate.len() <= self.length {
-            *self = Self { length: candidate.len(), key: key.to_owned(), is_value };
+            *self = Self { length: candidate.len(), key: key_of(path), is_value };
         }
     }
 }
 
-fn search_table(table: &DeTable<'_>, path: &str, span: &Span<usize>, best: &mut Found) {
+fn search_table<'a>(table: &'a DeTable<'_>, path: &mut Vec<Step<'a>>, span: &Span<usize>, best: &mut Found) {
     for (name, value) in table {
-        let dot = if path.is_empty() { "" } else { "." };
-        let key = format!("{path}{dot}{}", name.get_ref());
-        best.offer(name.span(), span, &key, false);
-        search_value(value.get_ref(), value.span(), &key, span, best);
+        path.push(Step::Key(name.get_ref()));
+        best.offer(name.span(), span, path, false);
+        search_value(value.get_ref(), value.span(), path, span, best);
+        path.pop();
     }
 }
 
-fn search_value(value: &DeValue<'_>, at: Span<usize>, key: &str, span: &Span<usize>, best: &mut Found) {
+fn search_value<'a>(
+    value: &'a DeValue<'_>,
+    at: Span<usize>,
+    path: &mut Vec<Step<'a>>,
+    span: &Span<usize>,
+    best: &mut Found,
+) {
     // The span of a [table] is its header, which is no value; that of { … } is one, but too long to repeat.
-    let is_value = !value.is_table() && key != "legs";
-    best.offer(at, span, key, is_value);
+    let is_value = !value.is_table() && *path != [Step::Key("legs")];
+    best.offer(at, span, path, is_value);
     match value {
-        DeValue::Table(table) => search_table(table, key, span, best),
+        DeValue::Table(table) => search_table(table, path, span, best),
         DeValue::Array(items) => {
             for (k, item) in items.iter().enumerate() {
-                search_value(item.get_ref(), item.span(), &format!("{key}[{}]", k + 1), span, best);
+                path.push(Step::Item(k));
+                search_value(item.get_ref(), item.span(), path, span, best);
+                path.pop();
             }
         }
         DeValue::String(_)

@@ -254,6 +254,26 @@ fn no_more_is_read_than_a_robot_file_may_hold() {
     assert!(Robot::read(format!("{largest} ").as_bytes(), "larger.toml").is_err());
 }
 
+/// A message is short, however long a key, a value or a line is, and a file of a long key and many values takes no time.
+#[test]
+fn what_is_long_is_not_repeated() {
+    let long = "a".repeat(400_000);
+    for text in [
+        format!("{long} = [0{}]", ",0".repeat(200_000)),
+        format!("platform = \"{long}\""),
+        format!("x = [{}", "[".repeat(400_000)),
+        format!("{long} = 1\n{long} = 2"),
+        format!("legs = \"{long}\""),
+    ] {
+        let message = Robot::from_toml(&text, "long.toml").unwrap_err().to_string();
+        assert!(message.len() < 2000, "{message}");
+    }
+    let message =
+        Robot::from_toml(&format!("{}x = 1", " ".repeat(300)), "wide.toml").unwrap_err().to_string();
+    let [.., line, underline] = message.lines().collect::<Vec<_>>()[..] else { panic!("{message}") };
+    assert_eq!(line.find('x'), underline.find('^'), "{message}");
+}
+
 #[test]
 fn names_are_resolved_or_suggested() {
     assert_eq!(Robot::resolve("five-bar").unwrap().name, "five-bar");
