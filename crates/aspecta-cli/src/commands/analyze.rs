@@ -65,8 +65,8 @@ const FIX: &str = "\
     again, or separated by commas, for several. det A stays that of the whole robot";
 
 const EXIT_STATUS: &str = "\
-Exit status: 0 the bounds meet, or boxes are as fine as they were to be; 1 a budget of time or boxes or Ctrl-C ended the run before, with the \
-result so far; 2 bad input.";
+Exit status: 0 done, however far apart the bounds are; 1 a budget of time or boxes ended the run before any aspect was found, or Ctrl-C did, \
+with the result so far; 2 bad input.";
 
 /// Where the rows are that the tables leave out.
 const ADVICE: AnalysisAdvice =
@@ -91,7 +91,11 @@ impl Analyze {
         if analysis.run.stop == Stop::Cancelled {
             note("cancelled: this is the result so far");
         }
-        Ok(Answer::from(matches!(analysis.run.stop, Stop::Exact | Stop::Resolution)))
+        Ok(Answer::from(match analysis.run.stop {
+            Stop::Exact | Stop::Resolution => true,
+            Stop::Boxes | Stop::Time => analysis.aspects.low > 0,
+            Stop::Cancelled => false,
+        }))
     }
 
     fn print(&self, out: &mut dyn Write, analysis: &Analysis) -> Result<(), Failure> {

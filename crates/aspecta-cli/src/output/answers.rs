@@ -61,7 +61,7 @@ pub fn print_each<S: Shown>(
     found.failure.map_or(Ok(Answer::from(positive)), Err)
 }
 
-/// JSON: what was found of one vector, at the top; or of many, a list with their lines.
+/// JSON: the list of what was found, of the rows of a file with their lines; of one vector it stands at the top too.
 fn print_json<S: Shown>(
     mut out: &Shared<'_>,
     shown: &S,
@@ -76,7 +76,7 @@ fn print_json<S: Shown>(
         angle_unit: "rad",
     };
     if shown.line(&first).is_none() {
-        return json(&mut out, &One { about, answer: shown.json(&first) });
+        return json(&mut out, &One { about, answer: shown.json(&first), results: [shown.json(&first)] });
     }
     let found = RefCell::new(iter::once(first).chain(found));
     json(&mut out, &Many { about, results: Results { shown, found } })
@@ -173,6 +173,7 @@ struct One<'a, T> {
     about: About<'a>,
     #[serde(flatten)]
     answer: T,
+    results: [T; 1],
 }
 
 #[derive(Serialize)]

@@ -488,3 +488,17 @@ fn budgets_govern_what_follows_the_aspects() {
     let told = stdout("analyze 3-rrr --fix x=-10,y=0 --deg");
     assert!(told.contains("phi [deg]") && !told.contains("phi [rad]"), "{told}");
 }
+
+/// One vector or many: the list of what is found is in the same place.
+#[test]
+fn json_of_one_vector_and_of_many_has_one_shape() {
+    let one = json("fk five-bar --q=1,2 --json");
+    let run = aspecta("fk five-bar --file - --json").write_stdin("1,2\n").output().unwrap();
+    let many: Value = serde_json::from_slice(&run.stdout).unwrap();
+    assert_eq!(one["results"][0]["solutions"], many["results"][0]["solutions"]);
+    assert_eq!(one["results"][0]["solutions"], one["solutions"]);
+    let run = output("ik five-bar --pose 99,0 --json");
+    let out_of_reach: Value = serde_json::from_slice(&run.stdout).unwrap();
+    assert_eq!(run.status.code(), Some(1));
+    assert_eq!(out_of_reach["results"][0]["solutions"], serde_json::json!([]));
+}

@@ -93,7 +93,7 @@ pub fn domains(
         joined: numbered(&beyond.joined),
         undecided: numbered(&beyond.undecided),
         uniqueness,
-        complete: complete && unresolved.parts == 0 && agreement.disagreements.is_empty(),
+        complete: complete && partition.thin.is_empty(),
         unresolved,
         violations: violations(&sheet, &partition, &images, &beyond, regions.len()),
         agreement,

@@ -65,8 +65,7 @@ impl Partition {
             labels: Labels { grid, region: vec![OUTSIDE; nodes] },
         };
         partition.solve(sheet, control);
-        partition.thin = partition.thin(sheet, control);
-        partition.thin.iter().for_each(|&node| partition.solutions[node] = 0);
+        let thin = partition.thin(sheet, control);
         // Nodes, and after them their other poses.
         let mut sets = UnionFind::new(nodes + partition.others.len());
         partition.join_neighbours(sheet, &mut sets, control);
@@ -75,7 +74,26 @@ impl Partition {
         partition.label(&mut sets);
         partition.join_slivers(sheet, &mut sets, control);
         partition.label(&mut sets);
+        partition.leave_out(thin);
+        partition.label(&mut sets);
         partition
+    }
+
+    /// Takes nodes out of their regions, but for those regions of which no inner node would be left.
+    fn leave_out(&mut self, mut nodes: BTreeSet<usize>) {
+        let region = &self.labels.region;
+        let is_left = |node: usize| region[node] != OUTSIDE && !nodes.contains(&node);
+        let is_inner = |&node: &usize| {
+            let mut inner = is_left(node) && self.labels.is_inner(node);
+            self.labels.grid.within(node, 1, |other| inner &= is_left(other));
+            inner
+        };
+        let resolved: BTreeSet<u32> = (0..region.len()).filter(is_inner).map(|node| region[node]).collect();
+        nodes.retain(|&node| resolved.contains(&region[node]));
+        for &node in &nodes {
+            (self.solutions[node], self.labels.region[node]) = (0, OUTSIDE);
+        }
+        self.thin = nodes;
     }
 
     fn solve(&mut self, sheet: &Sheet<'_>, control: &Control<'_>) {

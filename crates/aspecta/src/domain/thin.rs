@@ -17,11 +17,12 @@ const REACH: usize = 2;
 
 impl Partition {
     /// The nodes at both ends of edges with the same count at both ends and another one in between, as far as such
-    /// edges lead from those with two counts. On grids of two axes: in space there are too many edges.
+    /// edges lead from those with two counts. On grids of two axes, of robots with up to three coordinates: else there
+    /// are too many edges, or a direct problem costs too much.
     pub(super) fn thin(&self, sheet: &Sheet<'_>, control: &Control<'_>) -> BTreeSet<usize> {
         let grid = &self.labels.grid;
         let mut thin = BTreeSet::new();
-        if grid.axes() != 2 {
+        if grid.axes() != 2 || grid.dof() > 3 {
             return thin;
         }
         let edges = |node: usize| (0..grid.axes()).filter_map(move |k| Some((node, grid.next(node, k)?)));

@@ -158,12 +158,7 @@ fn uniqueness(out: &mut dyn Write, found: &Domains, advice: &DomainsAdvice) -> f
     write!(out, "{table}")?;
     more(out, found.uniqueness.len(), advice)?;
     if !found.complete {
-        let seen = found.unresolved.parts == 0 && found.agreement.disagreements.is_empty();
-        let why = if seen {
-            "the search for sets of regions was cut short"
-        } else {
-            "not all regions are resolved"
-        };
+        let why = "parts of regions pass between the cells, or not all sets of regions were looked at";
         writeln!(out, "  there may be more: {why}")?;
     }
     Ok(())
