@@ -4,7 +4,7 @@ use super::LegIndex;
 use super::singularity::{SINGULAR, State};
 use crate::homogeneous::Homogeneous;
 use crate::placement::Placement;
-use aspecta_robot::Robot;
+use aspecta_robot::{Robot, Spherical};
 use nalgebra::{DMatrix, RowDVector, SVD};
 use serde::Serialize;
 
@@ -50,11 +50,11 @@ pub struct Lost {
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum SerialPosture {
-    /// Crank and rod are one line, as long as both.
+    /// Crank and rod (proximal and distal link) are one line, or one arc, as long as both.
     Stretched,
-    /// The rod lies back over the crank.
+    /// The rod (distal link) lies back over the crank (proximal link).
     Folded,
-    /// The rod stands square to what its motor moves; legs on a sphere too.
+    /// The rod stands square to what its motor moves.
     Square,
 }
 
@@ -119,6 +119,12 @@ fn twist_of_joints(a: &[Vec<f64>], b: &[f64]) -> Option<Vec<Vec<f64>>> {
 /// How a leg stands whose two postures meet.
 fn posture(robot: &Robot, pose: &[f64], leg: LegIndex) -> SerialPosture {
     let leg = robot.leg(leg);
+    if let Some(Spherical { proximal: (cos, _), distal_cos }) = leg.actuator.as_spherical() {
+        // The platform joint is at the sum or at the difference of both links' angles from the axis.
+        let across = span::<3>(robot, pose, leg)[2];
+        let stretched = across < cos.mid() * distal_cos.mid();
+        return if stretched { SerialPosture::Stretched } else { SerialPosture::Folded };
+    }
     let bend = match robot.platform.space() {
         2 => leg.actuator.bend(&span::<2>(robot, pose, leg)),
         _ => leg.actuator.bend(&span::<3>(robot, pose, leg)),
@@ -133,4 +139,40 @@ fn posture(robot: &Robot, pose: &[f64], leg: LegIndex) -> SerialPosture {
 fn span<const D: usize>(robot: &Robot, pose: &[f64], leg: &aspecta_robot::Leg) -> [f64; D] {
     let placement = Placement::<f64, D>::at(robot.platform, pose);
     placement.span(leg, &placement.arm(leg))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Kinematics;
+
+    /// With links of 60° and 30° the platform joint is 90° or 30° from the axis.
+    #[test]
+    fn legs_on_a_sphere_are_stretched_or_folded() {
+        let others = r#"
+            [[legs]]
+            attachment = [-0.15, 0.3, -1.0]
+            actuator = { kind = "spherical", axis = [0.0, 1.0, 0.0], zero = [1.0, 0.0, 0.0], proximal = { deg = 70 }, distal = { deg = 85 } }
+            [[legs]]
+            attachment = [-1.0, 0.1, 0.25]
+            actuator = { kind = "spherical", axis = [0.0, 0.0, 1.0], zero = [0.0, 1.0, 0.0], proximal = { deg = 75 }, distal = { deg = 100 } }
+        "#;
+        for (attachment, posture) in
+            [("0, 1, 0", SerialPosture::Stretched), ("0.8660254037844386, 0.5, 0", SerialPosture::Folded)]
+        {
+            let text = format!(
+                r#"name = "sphere"
+                platform = "turning-body"
+                [[legs]]
+                attachment = [{attachment}]
+                actuator = {{ kind = "spherical", axis = [1, 0, 0], zero = [0, 1, 0], proximal = {{ deg = 60 }}, distal = {{ deg = 30 }} }}
+                {others}"#
+            );
+            let robot = Robot::from_toml(&text, "sphere.toml").unwrap();
+            let pose = [0.0; 3];
+            let q = robot.inverse(&pose).unwrap()[0].q.clone();
+            let lost = robot.state(&pose, &q).unwrap().velocities(&robot).lost;
+            assert_eq!((lost.len(), lost[0].posture), (1, posture), "{lost:?}");
+        }
+    }
 }

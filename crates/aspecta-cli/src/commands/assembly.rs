@@ -110,7 +110,7 @@ impl Assembly {
                 Configuration { pose: &solution.pose, mode: solution.mode }
             });
             let change = route(analysis, [start, goal], through, &options, control);
-            let change = self.planning.moving.film(&robot, Some(analysis), change);
+            let change = self.planning.film(&robot, Some(analysis), change)?;
             let explicable = change.result.as_ref().ok().filter(|_| self.explain && !through);
             let plan = explicable.map(|route| &route.stretches[0]);
             let explain = |plan: &Plan| {
@@ -155,7 +155,7 @@ impl Assembly {
         let ends = [&from.pose[..], &to.pose[..]];
         let change = self.planning.explore(|effort, control| {
             let change = plan_over_roadmap(robot, ends, from.mode, options, (effort, control))?;
-            Ok(self.planning.moving.film(robot, None, change))
+            self.planning.film(robot, None, change)
         })?;
         motion::print(out, robot, &change, &self.planning)
     }

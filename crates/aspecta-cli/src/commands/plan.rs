@@ -79,7 +79,7 @@ impl Plan {
         let modes: &[WorkingMode] = if through { &[] } else { &[mode] };
         let planned = self.planning.paved(&robot)?.with(&robot, modes, |analysis, control| {
             let result = route(analysis, ends, through, &options, control);
-            Ok(self.planning.moving.film(&robot, Some(analysis), result))
+            self.planning.film(&robot, Some(analysis), result)
         })?;
         motion::print(out, &robot, &planned, &self.planning)
     }
@@ -102,7 +102,7 @@ impl Plan {
         }
         let planned = self.planning.explore(|effort, control| {
             let result = plan_over_roadmap(robot, ends, mode, options, (effort, control))?;
-            Ok(self.planning.moving.film(robot, None, result))
+            self.planning.film(robot, None, result)
         })?;
         motion::print(out, robot, &planned, &self.planning)
     }

@@ -6,16 +6,18 @@ use crate::args::budget;
 use crate::args::planning::{Analysing, Moving, Planning};
 use crate::failure::Failure;
 use crate::output::{Labels, brief, note};
+use aspecta::Kinematics;
 use aspecta::aspect::{Analysis, Options, analyze};
 use aspecta::kinematics::WorkingMode;
 use aspecta::motion::ProfilePoint;
 use aspecta::motion::explore::{self, Effort, NoWay};
 use aspecta::motion::modes::{Configuration, ModeGraph, NoRoute, Route, check_ends};
 use aspecta::motion::plan::{Plan, PlanOptions, Planner, Refusal};
-use aspecta::motion::time::{Waypoint, trajectory};
+use aspecta::motion::time::{Piece, Row, Trajectory, Waypoint, trajectory};
 use aspecta::paving::{Control, Stop};
 use aspecta::robot::Robot;
 use aspecta_view::Motion;
+use std::path::Path;
 use std::sync::Arc;
 
 impl Analysing {
@@ -146,31 +148,65 @@ pub struct Planned {
     pub page: Option<String>,
 }
 
-impl Moving {
-    /// The result with the page that plays it, if that is wanted: with the aspects that were analysed.
+impl Planning {
+    /// The result with the page that plays it, if that is wanted: with the aspects that were analysed, and in its own time where the
+    /// motion has one.
     pub fn film(
         &self,
         robot: &Robot,
         analysis: Option<&Analysis>,
         result: Result<Route, NoRoute>,
-    ) -> Planned {
-        let route = result.as_ref().ok().filter(|_| self.out.directory().is_some());
-        let page = route.map(|route| {
-            let pieces = route.pieces(robot);
+    ) -> Result<Planned, Failure> {
+        let route = result.as_ref().ok().filter(|_| self.moving.out.directory().is_some());
+        let page = |route: &Route| {
             let mut motion = Motion::new(robot);
             if let Some(analysis) = analysis {
                 motion = motion.within(analysis);
             }
-            for samples in pieces.iter().flat_map(|piece| piece.samples.chunk_by(|a, b| a.mode == b.mode)) {
-                motion = motion.then(samples[0].mode, &profile(samples));
+            let timed = self.moving.motion(robot, route, self.shown.deg)?;
+            let samples = match &timed {
+                Some((trajectory, _)) => vec![timed_samples(robot, trajectory)?],
+                None => untimed_samples(&route.pieces(robot)),
+            };
+            for piece in samples.iter().flat_map(|piece| piece.chunk_by(|a, b| a.0.mode == b.0.mode)) {
+                motion = motion.then(piece[0].0.mode, &profile(piece));
             }
-            motion.page()
-        });
-        Planned { result, page }
+            if timed.is_some() {
+                motion = motion.timed(&samples.iter().flatten().map(|sample| sample.1).collect::<Vec<_>>());
+            }
+            Ok::<_, Failure>(motion.page())
+        };
+        let page = route.map(page).transpose()?;
+        Ok(Planned { result, page })
     }
+}
 
-    /// Writes what was asked for, and says so.
-    pub fn write(&self, robot: &Robot, route: &Route, degrees: bool) -> Result<Option<String>, Failure> {
+/// Frames a second of a page that plays a motion in its own time, and the most of all.
+const FRAMES: (f64, f64) = (50.0, 2000.0);
+
+/// The samples of each piece.
+fn untimed_samples(pieces: &[Piece]) -> Vec<Vec<(Waypoint, f64)>> {
+    pieces.iter().map(|piece| piece.samples.iter().map(|sample| (sample.clone(), 0.0)).collect()).collect()
+}
+
+/// The motion from frame to frame, each with its time.
+fn timed_samples(robot: &Robot, motion: &Trajectory) -> Result<Vec<(Waypoint, f64)>, Failure> {
+    let rate = FRAMES.0.min(FRAMES.1 / motion.total_time());
+    let sample = |row: Row| {
+        let mode = robot.jacobians(&row.pose, &row.q)?.mode();
+        Ok((Waypoint { mode, pose: row.pose, q: row.q }, row.time))
+    };
+    motion.rows(rate).map(sample).collect()
+}
+
+impl Moving {
+    /// The motion under joint limits, if it is wanted, and where it is written to.
+    fn motion(
+        &self,
+        robot: &Robot,
+        route: &Route,
+        degrees: bool,
+    ) -> Result<Option<(Trajectory, &Path)>, Failure> {
         let (Some(path), Some(speed), Some(acceleration)) =
             (&self.trajectory, &self.speed, &self.acceleration)
         else {
@@ -180,6 +216,12 @@ impl Moving {
         let limits = timing::limits(robot, speed, acceleration, degrees)?;
         let motion = trajectory(&route.pieces(robot), &limits)?;
         timing::check_length(&motion, self.rate.rate)?;
+        Ok(Some((motion, path)))
+    }
+
+    /// Writes what was asked for, and says so.
+    pub fn write(&self, robot: &Robot, route: &Route, degrees: bool) -> Result<Option<String>, Failure> {
+        let Some((motion, path)) = self.motion(robot, route, degrees)? else { return Ok(None) };
         let written = timing::write("--trajectory", path, robot, &motion, self.rate.rate)?;
         let (time, strays) =
             (brief(motion.total_time()), Labels::joints(robot, degrees).sentence(motion.path_error()));
@@ -188,9 +230,9 @@ impl Moving {
 }
 
 /// Samples as the page of a motion takes them, which computes the determinants itself.
-fn profile(samples: &[Waypoint]) -> Vec<ProfilePoint> {
+fn profile(samples: &[(Waypoint, f64)]) -> Vec<ProfilePoint> {
     let last = samples.len().saturating_sub(1).max(1) as f64;
-    let point = |(k, at): (usize, &Waypoint)| ProfilePoint {
+    let point = |(k, (at, _)): (usize, &(Waypoint, f64))| ProfilePoint {
         segment: 1,
         t: k as f64 / last,
         pose: at.pose.clone(),

@@ -1,7 +1,7 @@
 // Slices and 3-D view of a robot with three coordinates. The page holds the volume in #volume (JSON) and the
 // empty #explorer to fill.
 
-import { decode } from "./volume.js";
+import { decode, fullest } from "./volume.js";
 import { drawSlice } from "./slices.js";
 import { View } from "./scene.js";
 
@@ -16,6 +16,7 @@ function start() {
   const sign = select("det A", [["both", "both signs"], ["+", "> 0"], ["-", "< 0"]]);
   const axis = select("Slice across", volume.axes.map((a, k) => [k, a.label.split(" ")[0]]));
   axis.input.value = "2";
+  mode.input.value = (volume.classes.find((c) => c.aspects.length > 0) ?? volume.classes[0]).mode;
   const slider = element("input", { type: "range", min: 0, step: 1, "aria-label": "Position of the slice" });
   const where = element("output", {});
   const canvas = element("canvas", { class: "slice", role: "img", "aria-label": "Slice of the W-aspects" });
@@ -69,16 +70,17 @@ function start() {
     );
   }
   const all = () => (list(), slice(), surfaces());
-  mode.input.addEventListener("change", all);
+  // Where there is most to be seen.
+  function place() {
+    const k = Number(axis.input.value);
+    slider.max = volume.size[k] - 1;
+    slider.value = fullest(current().map(labelled), volume.size, k);
+  }
+  mode.input.addEventListener("change", () => (place(), all()));
   sign.input.addEventListener("change", all);
-  axis.input.addEventListener("change", () => {
-    slider.max = volume.size[Number(axis.input.value)] - 1;
-    slider.value = Math.floor(slider.max / 2);
-    slice();
-  });
+  axis.input.addEventListener("change", () => (place(), slice()));
   slider.addEventListener("input", slice);
-  slider.max = nz - 1;
-  slider.value = Math.floor(nz / 2);
+  place();
   new ResizeObserver(slice).observe(canvas);
   all();
 }

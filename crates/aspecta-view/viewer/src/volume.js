@@ -22,6 +22,18 @@ export function decode(text, count) {
   return labels;
 }
 
+// The index, across an axis, of the slice in which aspects have most voxels: of volumes of labels of one size.
+export function fullest(volumes, size, axis) {
+  const counts = new Uint32Array(size[axis]);
+  const [nx, ny] = size;
+  for (const labels of volumes) {
+    labels.forEach((label, p) => {
+      if (label > 1) counts[[p % nx, Math.floor(p / nx) % ny, Math.floor(p / (nx * ny))][axis]]++;
+    });
+  }
+  return counts.indexOf(Math.max(...counts));
+}
+
 // The bounding boxes of all labels: Map from label to { lo: [i, j, k], hi: [i, j, k] } (inclusive).
 export function bounds(labels, [nx, ny, nz]) {
   const boxes = new Map();

@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { surfaceNet } from "../src/nets.js";
 import { ticks } from "../src/slices.js";
-import { bounds, decode } from "../src/volume.js";
+import { bounds, decode, fullest } from "../src/volume.js";
 
 test("runs are decoded, long ones too", () => {
   const text = Buffer.from([0, 2, 3, 0xac, 0x02]).toString("base64");
@@ -38,4 +38,14 @@ test("a surface net is closed, faces outward and encloses about the volume", () 
 test("ticks are round and within the range", () => {
   assert.deepEqual(ticks({ range: [-24, 26], angle: false }).map((t) => t[0]), [-20, -10, 0, 10, 20]);
   assert.equal(ticks({ range: [-3.1416, 3.1416], angle: true }).length, 5);
+});
+
+test("the slice that opens is the one in which aspects have most voxels", () => {
+  const labels = new Uint16Array(2 * 3 * 4);
+  labels[2 * 3 * 2] = 2; // one voxel at height 2
+  labels.fill(1, 0, 6); // undecided ones count for nothing
+  labels.fill(3, 2 * 3 * 3, 2 * 3 * 3 + 2); // two at height 3
+  assert.equal(fullest([labels], [2, 3, 4], 2), 3);
+  assert.equal(fullest([labels], [2, 3, 4], 0), 0);
+  assert.equal(fullest([new Uint16Array(24)], [2, 3, 4], 1), 0);
 });

@@ -167,6 +167,9 @@ impl<'a> Map<'a> {
         }
         x = swatch(svg, [x, y], UNDECIDED, "undecided");
         x = sample_line(svg, [x, y], Kind::Parallel, "det A = 0");
-        sample_line(svg, [x, y], Kind::Serial, "det B = 0");
+        x = sample_line(svg, [x, y], Kind::Serial, "det B = 0");
+        if lines.iter().any(|line| line.0 == Kind::Limit) {
+            sample_line(svg, [x, y], Kind::Limit, "joint limit");
+        }
     }
 }

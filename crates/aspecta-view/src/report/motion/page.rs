@@ -107,7 +107,9 @@ fn controls(motion: &Motion<'_>, readout: &mut Readout<'_>) -> Markup {
                     option value=(value) selected[value == "1"] { (text) }
                 }
             } }
-            span.now { "segment " (segment) ", t = " (t) @if motion.timed { ", " (seconds) " s" } }
+            span.now {
+                @if motion.timed { (seconds) " s" } @else { "segment " (segment) ", t = " (t) }
+            }
             span.keys { "Space plays, ← → step, Home and End go to the ends." }
         }
         noscript { p { "Without script the first sample is shown." } }
