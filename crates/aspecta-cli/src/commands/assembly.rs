@@ -7,7 +7,7 @@ use crate::input::{self, Columns};
 use crate::output::{FORMAT_VERSION, Format, Labels, json, note, number};
 use crate::show::numbered::{self, IN_ONE, Numbered, list};
 use crate::show::{joined, motion};
-use crate::work::planning::{Planned, plan_over_roadmap, route};
+use crate::work::planning::{Planned, may_be_finer, plan_over_roadmap, route};
 use aspecta::Kinematics;
 use aspecta::kinematics::{DirectSolutions, WorkingMode};
 use aspecta::motion::assembly::{
@@ -102,14 +102,17 @@ impl Assembly {
         if through {
             modes.clear();
         }
-        let found = self.planning.paved(&robot)?.with(&robot, &modes, |analysis, control| {
+        let found = self.planning.paved(&robot)?.with_finer(&robot, &modes, |analysis, control| {
             let modes = assembly_modes(analysis, &q)?;
-            let Some([from, to]) = chosen else { return Ok(Found { modes, change: None, explained: None }) };
+            let Some([from, to]) = chosen else {
+                return Ok((Found { modes, change: None, explained: None }, false));
+            };
             let [start, goal] = [from, to].map(|k| {
                 let solution = &modes.solutions[k - 1].solution;
                 Configuration { pose: &solution.pose, mode: solution.mode }
             });
             let change = route(analysis, [start, goal], through, &options, control);
+            let more = may_be_finer(&change);
             let change = self.planning.film(&robot, Some(analysis), change)?;
             let explicable = change.result.as_ref().ok().filter(|_| self.explain && !through);
             let plan = explicable.map(|route| &route.stretches[0]);
@@ -118,7 +121,7 @@ impl Assembly {
                 Ok::<_, Failure>((folds(&robot, plan), round))
             };
             let explained = plan.map(explain).transpose()?;
-            Ok(Found { modes, change: Some(change), explained })
+            Ok((Found { modes, change: Some(change), explained }, more))
         })?;
         self.print(out, &robot, &found)
     }

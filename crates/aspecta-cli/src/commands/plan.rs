@@ -5,7 +5,7 @@ use crate::args::robot::RobotArg;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
 use crate::show::motion;
-use crate::work::planning::{Planned, plan_over_roadmap, route, straight};
+use crate::work::planning::{Planned, may_be_finer, plan_over_roadmap, route, straight};
 use aspecta::kinematics::WorkingMode;
 use aspecta::motion::modes::Configuration;
 use aspecta::motion::plan::PlanOptions;
@@ -77,9 +77,10 @@ impl Plan {
             return motion::print(out, &robot, &planned, &self.planning);
         }
         let modes: &[WorkingMode] = if through { &[] } else { &[mode] };
-        let planned = self.planning.paved(&robot)?.with(&robot, modes, |analysis, control| {
+        let planned = self.planning.paved(&robot)?.with_finer(&robot, modes, |analysis, control| {
             let result = route(analysis, ends, through, &options, control);
-            self.planning.film(&robot, Some(analysis), result)
+            let more = may_be_finer(&result);
+            Ok((self.planning.film(&robot, Some(analysis), result)?, more))
         })?;
         motion::print(out, &robot, &planned, &self.planning)
     }

@@ -124,7 +124,7 @@ impl Traverse {
         let modes: Vec<_> = mode.into_iter().collect();
         let through_modes = self.through_modes;
         let found = self.analysing.with(&robot, &modes, |analysis, control| {
-            let analysis = Arc::clone(analysis);
+            let (analysis, set) = (Arc::clone(analysis), set.clone());
             let look = move || {
                 let graph = through_modes.then(|| ModeGraph::new(&analysis, &Control::unwatched()));
                 traversability(&analysis, graph.as_ref(), set)

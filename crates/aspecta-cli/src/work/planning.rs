@@ -20,6 +20,9 @@ use aspecta_view::Motion;
 use std::path::Path;
 use std::sync::Arc;
 
+/// How often finer boxes are tried where they may tell more and no budget is given.
+const FINER: u32 = 2;
+
 impl Analysing {
     /// The aspects of a robot, or of some of its modes (none: all), and what `work` makes of them. A time budget
     /// is for both: what the aspects leave of it, half at least, is for the rest.
@@ -27,23 +30,48 @@ impl Analysing {
         &self,
         robot: &Robot,
         modes: &[WorkingMode],
-        work: impl FnOnce(&Arc<Analysis>, &Control<'_>) -> Result<T, Failure>,
+        mut work: impl FnMut(&Arc<Analysis>, &Control<'_>) -> Result<T, Failure>,
+    ) -> Result<T, Failure> {
+        self.with_finer(robot, modes, |analysis, control| Ok((work(analysis, control)?, false)))
+    }
+
+    /// [`Analysing::with`], once more over finer boxes where `work` says that they may tell more, [`FINER`] times at most and
+    /// only if no budget is given.
+    pub fn with_finer<T>(
+        &self,
+        robot: &Robot,
+        modes: &[WorkingMode],
+        mut work: impl FnMut(&Arc<Analysis>, &Control<'_>) -> Result<(T, bool), Failure>,
     ) -> Result<T, Failure> {
         let mut budget = self.budget.unwrap_or_else(|| budget::coarse(robot.dof()));
         let seconds = budget.seconds;
         budget.seconds = seconds.map(|seconds| 0.5 * seconds);
         // In the plane all modes cost nothing to speak of, and aspects then have the numbers of `analyze`.
         let modes = if robot.dof() == 2 { &[] } else { modes };
-        let options = Options { budget, modes: modes.to_vec(), ..Options::default() };
-        let all = |control: &Control<'_>| {
+        let mut finer = if self.budget.is_none() { FINER } else { 0 };
+        let mut all = |control: &Control<'_>| loop {
+            let options = Options { budget, modes: modes.to_vec(), ..Options::default() };
             let analysis = analyze(robot, &options, control)?;
             if analysis.run.stop == Stop::Cancelled {
                 note("interrupted: what follows rests on the aspects found so far");
             }
-            work(&Arc::new(analysis), control)
+            let (result, more) = work(&Arc::new(analysis), control)?;
+            if !more || finer == 0 || control.is_cancelled() {
+                return Ok(result);
+            }
+            finer -= 1;
+            budget.depth = budget.depth.map(|depth| depth + 1);
         };
-        watched(self.threads, |control| within_seconds(seconds, control, all))?
+        watched(self.threads, |control| within_seconds(seconds, control, &mut all))?
     }
+}
+
+/// Whether finer boxes may tell whether there is a route.
+pub fn may_be_finer(result: &Result<Route, NoRoute>) -> bool {
+    matches!(
+        result,
+        Err(NoRoute::Unknown(_) | NoRoute::NotFound { .. } | NoRoute::Plan(Refusal::NotFound { .. }))
+    )
 }
 
 /// The plan that goes straight, where that is good enough.

@@ -502,3 +502,12 @@ fn json_of_one_vector_and_of_many_has_one_shape() {
     assert_eq!(run.status.code(), Some(1));
     assert_eq!(out_of_reach["results"][0]["solutions"], serde_json::json!([]));
 }
+
+/// Both poses lie in one aspect, as `analyze` certifies; boxes a little finer than usual join them.
+#[test]
+fn a_plan_within_one_aspect_is_found() {
+    let robot = format!("{}/../aspecta/tests/fixtures/folding_sphere.toml", env!("CARGO_MANIFEST_DIR"));
+    let ends = "--from=-0.196042,1.273286,-2.469458 --to=0.930941,0.844879,2.979742";
+    let text = stdout(&format!("plan {robot} {ends} --mode=-+-"));
+    assert!(text.contains("singularity-free  yes, certified"), "{text}");
+}
