@@ -86,15 +86,10 @@ impl Robot {
 
     /// The same pose with a pitch within ±90°.
     fn with_level_pitch(&self, mut pose: [f64; 6]) -> [f64; 6] {
-        if let Some([roll, pitch, yaw]) = self.platform.turns()
-            && pose[pitch].abs() > FRAC_PI_2
+        if let Some(turns) = self.platform.turns()
+            && let Ok(angles) = pose.get_disjoint_mut(turns)
         {
-            let (sin, cos) = pose[pitch].sin_cos();
-            pose[pitch] = sin.atan2(cos.abs());
-            if cos < 0.0 {
-                pose[roll] += PI;
-                pose[yaw] += PI;
-            }
+            level(angles);
         }
         pose
     }
@@ -192,8 +187,16 @@ impl Window {
         (lo <= x && x <= hi).then(|| (x - lo) / (hi - lo))
     }
 
-    /// A pose with each angle turned into the window: [`Window::turned_in`].
+    /// A pose with each angle turned into the window ([`Window::turned_in`]), and of a body that turns in space told with a pitch within
+    /// ±90° if the window goes no further.
     pub fn turned(&self, pose: &[f64]) -> Vec<f64> {
+        let mut pose = pose.to_vec();
+        if let [.., roll, pitch, yaw] = &mut pose[..]
+            && let [.., true, true, true] = self.angles[..]
+            && self.ranges[self.ranges.len() - 2].1 <= 2.0
+        {
+            level([roll, pitch, yaw]);
+        }
         pose.iter().enumerate().map(|(k, &x)| self.turned_in(k, x)).collect()
     }
 
@@ -211,6 +214,19 @@ impl Window {
         }
         let turned = turned_up(x, (lo, hi));
         if turned <= hi { turned } else { x }
+    }
+}
+
+/// Tells an orientation with a pitch within ±90°; one that has it keeps its digits.
+fn level([roll, pitch, yaw]: [&mut f64; 3]) {
+    if pitch.abs() <= FRAC_PI_2 {
+        return;
+    }
+    let (sin, cos) = pitch.sin_cos();
+    *pitch = sin.atan2(cos.abs());
+    if cos < 0.0 {
+        *roll += PI;
+        *yaw += PI;
     }
 }
 

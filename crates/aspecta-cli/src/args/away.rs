@@ -24,7 +24,7 @@ impl Away {
             Some([both]) => Ok(Margins { parallel: *both, serial: *both }),
             Some([parallel, serial]) => Ok(Margins { parallel: *parallel, serial: *serial }),
             _ => Err(Failure::Input(format!(
-                "--avoid: `{text}` is not a number from 0 to 1, nor two separated by a comma"
+                "--avoid: `{text}` is not a number from 0 to 1 and below it, nor two separated by a comma"
             ))),
         }
     }

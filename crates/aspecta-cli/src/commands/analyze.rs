@@ -89,7 +89,7 @@ impl Analyze {
             note(&format!("certificate: {}", path.display()));
         }
         if analysis.run.stop == Stop::Cancelled {
-            note("cancelled: this is the result so far");
+            note("stopped: this is the result so far");
         }
         Ok(Answer::from(match analysis.run.stop {
             Stop::Exact | Stop::Resolution => true,

@@ -111,7 +111,7 @@ impl Domains {
         })??;
         let cancelled = stop == Some(Stop::Cancelled);
         if cancelled {
-            note("cancelled: this is the result so far");
+            note("stopped, or the time was over: this is the result so far");
         }
         let is_wanted = |sheet: &&MappedAspect| {
             let Found { mode, det_a, aspect, .. } = sheet.domains;

@@ -64,15 +64,16 @@ impl Explore {
         let effort = budget::effort(self.budget, self.samples)?;
         warn_of_architecture(&robot);
         let found = watched(self.threads, |control| explore(&robot, &modes, &effort, control))??;
-        if found.classes.iter().any(|class| class.end == End::Cancelled) {
-            note("interrupted: this is what was seen so far");
+        let stopped = found.classes.iter().any(|class| class.end == End::Cancelled);
+        if stopped {
+            note("stopped: this is what was seen so far");
         }
         if self.shown.json() {
             json(out, &Document { format_version: FORMAT_VERSION, found: &found })?;
         } else {
             print(out, &robot, &found, self.shown.deg)?;
         }
-        Ok(Answer::Yes)
+        Ok(Answer::from(!stopped))
     }
 }
 

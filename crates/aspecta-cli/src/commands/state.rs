@@ -216,7 +216,11 @@ fn print_one(
 ) -> Result<(), Failure> {
     let serial = if s.mode.is_none() { " (0: serial singularity)" } else { "" };
     writeln!(out, "\nworking mode  {}{serial}", mode(s))?;
-    let limits = if s.within_limits { "" } else { " (beyond limits)" };
+    let limits = match robot.beyond_window(&s.pose) {
+        Some(k) => format!(" (beyond limits: {} is beyond the window)", robot.platform.coordinates()[k].name),
+        None if s.within_limits => String::new(),
+        None => " (beyond joint limits)".into(),
+    };
     writeln!(out, "joints        {}{limits}", Labels::joints(robot, degrees).sentence(&s.q))?;
     writeln!(
         out,

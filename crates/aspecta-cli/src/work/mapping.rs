@@ -4,7 +4,7 @@ use crate::args::budget;
 use crate::args::making::Making;
 use crate::failure::{Failure, advice};
 use crate::input;
-use crate::work::watch::{abandoned_if_cancelled, within_seconds};
+use crate::work::watch::{abandoned_if_cancelled, unkept, within_seconds};
 use aspecta::aspect::{Analysis, AspectId, DetSign, Options, analyze};
 use aspecta::domain::boundary::Boundary;
 use aspecta::domain::characteristic::Characteristic;
@@ -143,7 +143,7 @@ impl Making {
         let options = Options { budget, fix: part.fix, modes: part.modes, ..Options::default() };
         let usual = usual_options(robot, free);
         let cells = self.cells.map_or(usual.cells, usize::from);
-        let analysis = Arc::new(analyze(robot, &options, control)?);
+        let analysis = Arc::new(unkept(|| analyze(robot, &options, control))?);
         let options = DomainOptions { cells, ..usual };
         let sheet = |id: AspectId| {
             let mut domains = domains(&analysis, id, &options, control)?;

@@ -1,7 +1,7 @@
 //! The common part of commands that plan motions: what they plan over, and what is written of a plan.
 
 use super::timing;
-use super::watch::{abandoned_if_cancelled, watched, within_seconds};
+use super::watch::{abandoned_if_cancelled, unkept, watched, within_seconds};
 use crate::args::budget;
 use crate::args::planning::{Analysing, Moving, Planning};
 use crate::failure::Failure;
@@ -51,9 +51,9 @@ impl Analysing {
         let mut finer = if self.budget.is_none() { FINER } else { 0 };
         let mut all = |control: &Control<'_>| loop {
             let options = Options { budget, modes: modes.to_vec(), ..Options::default() };
-            let analysis = analyze(robot, &options, control)?;
+            let analysis = unkept(|| analyze(robot, &options, control))?;
             if analysis.run.stop == Stop::Cancelled {
-                note("interrupted: what follows rests on the aspects found so far");
+                note("the time was over: what follows rests on the aspects found so far");
             }
             let (result, more) = work(&Arc::new(analysis), control)?;
             if !more || finer == 0 || control.is_cancelled() {

@@ -40,6 +40,14 @@ pub fn watched<T>(threads: Threads, work: impl FnOnce(&Control<'_>) -> T) -> Res
     Ok(result)
 }
 
+/// Does a part of watched work of which nothing is kept when it is stopped: Ctrl-C ends the program at once.
+pub fn unkept<T>(work: impl FnOnce() -> T) -> T {
+    KEEPS.store(false, Ordering::Relaxed);
+    let result = work();
+    KEEPS.store(true, Ordering::Relaxed);
+    result
+}
+
 /// Does work that cannot be stopped on a thread of its own, which is left to itself when the rest is cancelled:
 /// then there is no result.
 pub fn abandoned_if_cancelled<T: Send + 'static>(

@@ -81,7 +81,9 @@ impl PathCheck {
         if self.joined == Joined::None {
             return format!("{failure}, sample {segment}");
         }
-        format!("{failure}, segment {segment}, t = {} … {}", number(from), number(to))
+        // A place that is proved is the first: how far it goes on is not looked at.
+        let first = if obstacle.proved { " (where it begins)" } else { "" };
+        format!("{failure}, segment {segment}, t = {} … {}{first}", number(from), number(to))
     }
 }
 

@@ -18,6 +18,7 @@ use aspecta_robot::num::{Interval, Scalar, Slope};
 use aspecta_robot::{Robot, Window};
 use serde::Serialize;
 use std::collections::VecDeque;
+use std::f64::consts::TAU;
 
 /// Interval evaluations spent on a box, in each class.
 const BOX_EFFORT: usize = 50_000;
@@ -194,15 +195,22 @@ impl PoseSet {
         }
     }
 
-    /// A pose that lies outside the window: each part is turned as a whole, since its angles are real numbers that must not jump.
-    fn beyond(&self, window: &Window) -> Option<Vec<f64>> {
+    /// A pose that lies outside the window, and whether that is sure: each part is turned as a whole, since its angles are real numbers that
+    /// must not jump. Of a part that is told beyond the pole of the pitch it is not known.
+    fn beyond(&self, window: &Window) -> Option<(Vec<f64>, bool)> {
         let of_part = |part: Vec<Vec<f64>>| {
             let first = part.first()?;
-            let turns: Vec<f64> =
-                window.turned(first).iter().zip(first).map(|(turned, x)| turned - x).collect();
+            let turned_first = window.turned(first);
+            let turns: Vec<f64> = turned_first.iter().zip(first).map(|(turned, x)| turned - x).collect();
+            let full = |turn: &f64| ((turn / TAU).round() * TAU - turn).abs() < 1e-9;
+            if !turns.iter().all(full) {
+                // One pose can be told anew, more only together.
+                let whole = part.len() == 1 && window.holds(&turned_first);
+                return if whole { None } else { Some((first.clone(), part.len() == 1)) };
+            }
             let turned =
                 |pose: &Vec<f64>| pose.iter().zip(&turns).map(|(x, turn)| x + turn).collect::<Vec<_>>();
-            part.iter().find(|pose| !window.holds(&turned(pose))).cloned()
+            part.iter().find(|pose| !window.holds(&turned(pose))).map(|pose| (pose.clone(), true))
         };
         self.parts().into_iter().find_map(of_part)
     }
@@ -213,9 +221,9 @@ fn holds(analysis: &Analysis, set: &PoseSet, class: ClassId) -> Holds {
     let demand = Demand::class(entry.mode, entry.det_a.factor());
     let robot = &analysis.robot;
     if robot.window.iter().any(Option::is_some)
-        && let Some(pose) = set.beyond(&analysis.window)
+        && let Some((pose, sure)) = set.beyond(&analysis.window)
     {
-        return Holds::NotWhole { pose, constraint: None };
+        return if sure { Holds::NotWhole { pose, constraint: None } } else { Holds::Undecided { pose } };
     }
     let over_ranges = |ranges: &[(f64, f64)], circle: Option<Circle<'_>>| {
         let whole = for_platform!(robot.platform, over_box(robot, &demand, ranges, circle));

@@ -6,7 +6,7 @@ use aspecta::Kinematics;
 use aspecta::kinematics::constraints::{Constraint, Margins};
 use aspecta::motion::{Asked, Bound, Joined, PathCheck, PathError, PathOptions, check_poses};
 use aspecta::robot::{LegIndex, Robot};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// Brute force: the verdict is what fine sampling shows, as far as that shows anything.
 fn compare(robot: &Robot, check: &PathCheck) {
@@ -200,4 +200,46 @@ fn a_window_is_left_where_the_path_crosses_it() {
     assert_eq!(check(Joined::Spline).within_limits, Some(false));
     robot.window[2] = Some((0.0, 0.5));
     assert!(check_poses(&robot, &poses, mode("+++"), &options(Joined::Spline)).unwrap().is_sound());
+}
+
+/// Poses of a body that turns in space, however they are told: what is said of a path, and of each of its samples, is what is
+/// said of the same poses told within ±90° of pitch.
+#[test]
+fn windows_hold_poses_told_beyond_the_poles() {
+    let mut random = aspecta::num::Random::new(77);
+    let (mut inside, mut outside) = (0, 0);
+    for _ in 0..400 {
+        let mut robot = robot("spherical-3-rrr");
+        let k = random.below(3);
+        let (a, b) = if k == 1 { (-1.4, 1.4) } else { (-3.0, 3.0) };
+        let (low, high) = (random.within((a, 0.0)), random.within((0.0, b)));
+        robot.window[k] = Some((low, high));
+        let start: Vec<f64> = [3.0, 1.3, 3.0].iter().map(|most| random.within((-most, *most))).collect();
+        let end: Vec<f64> = start.iter().map(|x| x + random.within((-0.02, 0.02))).collect();
+        let beyond = |pose: &Vec<f64>| vec![pose[0] + PI, PI - pose[1] - TAU, pose[2] + PI];
+        let Some(solution) = robot.inverse(&start).unwrap().into_iter().next() else { continue };
+        for joined in [Joined::None, Joined::Straight] {
+            let run = |poses: [Vec<f64>; 2]| {
+                let check = check_poses(&robot, &poses, solution.mode, &options(joined)).ok()?;
+                (check.singularity_free == Some(true)).then_some(check.within_limits)
+            };
+            let told = run([start.clone(), end.clone()]);
+            assert_eq!(run([beyond(&start), beyond(&end)]), told, "{start:?} {end:?} {:?}", robot.window);
+            inside += usize::from(told == Some(Some(true)));
+            outside += usize::from(told == Some(Some(false)));
+        }
+    }
+    assert!(inside > 20 && outside > 20, "{inside} {outside}");
+    // Samples by themselves are each in a turn of their own.
+    let mut robot = robot("3-rrr");
+    robot.window[2] = Some((-1.0, 1.0));
+    let poses = [vec![-12.0, -3.0, 0.3], vec![-12.0, -3.0, 6.6]];
+    assert_eq!(
+        check_poses(&robot, &poses, mode("+++"), &options(Joined::None)).unwrap().within_limits,
+        Some(true)
+    );
+    assert_eq!(
+        check_poses(&robot, &poses, mode("+++"), &options(Joined::Straight)).unwrap().within_limits,
+        Some(false)
+    );
 }
