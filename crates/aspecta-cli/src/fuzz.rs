@@ -7,7 +7,8 @@ use clap::Parser;
 use std::io::Cursor;
 use std::iter;
 
-/// The rows of a CSV text, poses or configurations of a robot, up to the first that is bad, which has a message.
+/// The rows of a CSV text, poses or configurations of a robot, up to the first that is bad, which has a
+/// message.
 pub fn rows(robot: &Robot, text: &[u8]) -> (Vec<Vec<f64>>, Option<String>) {
     let pose = Columns::pose(robot);
     let layouts = [pose.clone().and(&Columns::joints(robot)), pose];
@@ -22,8 +23,8 @@ pub fn rows(robot: &Robot, text: &[u8]) -> (Vec<Vec<f64>>, Option<String>) {
     (values, None)
 }
 
-/// What a command line prints, or says where it cannot run. It is run if it computes from its arguments alone: reads no
-/// file, writes none, and ends at once.
+/// What a command line prints, or says where it cannot run. It is run if it computes from its arguments alone:
+/// reads no file, writes none, and ends at once.
 pub fn answer(arguments: &[&str]) -> Option<Result<Vec<u8>, String>> {
     let cli = Cli::try_parse_from(iter::once("aspecta").chain(arguments.iter().copied())).ok()?;
     let ["ik" | "fk" | "state", robot, options @ ..] = arguments else { return None };

@@ -9,8 +9,8 @@ use std::time::Duration;
 /// The time that a certificate is checked for: what is longer is a matter of `verify --budget`.
 const PATIENCE: Duration = Duration::from_millis(100);
 
-/// Certificates: one that is read is written and read again as the same, and ends when it is cancelled; one that is
-/// verified claims nothing wrong of a robot of which the truth is known.
+/// Certificates: one that is read is written and read again as the same, and ends when it is cancelled; one
+/// that is verified claims nothing wrong of a robot of which the truth is known.
 pub fn certificate(text: &[u8]) {
     let Ok(certificate) = Certificate::from_json(text) else { return };
     let written = certificate.to_json().expect("a certificate is written");

@@ -1,5 +1,5 @@
-//! What must hold of every input, however hostile: one function a kind of input. The fuzzer (`fuzz/`) looks for inputs
-//! of which it does not hold; the tests replay those that were found, and seeds.
+//! What must hold of every input, however hostile: one function a kind of input. The fuzzer (`fuzz/`) looks for
+//! inputs of which it does not hold; the tests replay those that were found, and seeds.
 
 mod certificate;
 mod map;
@@ -11,8 +11,8 @@ use aspecta::{Kinematics, Robot, catalogue};
 use std::fmt::Write;
 use std::sync::LazyLock;
 
-/// Robot files: one that is read makes sense, can be computed with, and is written and read again as the same robot; of
-/// another it is said what is wrong.
+/// Robot files: one that is read makes sense, can be computed with, and is written and read again as the same
+/// robot; of another it is said what is wrong.
 pub fn robot_file(text: &[u8]) {
     match Robot::read(text, "fuzz.toml") {
         Err(error) => assert!(!error.to_string().is_empty()),
@@ -31,7 +31,8 @@ pub fn robot_file(text: &[u8]) {
     }
 }
 
-/// CSV files: numbers are finite, and written and read again as the same; a bad line has a message with its number.
+/// CSV files: numbers are finite, and written and read again as the same; a bad line has a message with its
+/// number.
 pub fn csv(text: &[u8]) {
     static ROBOTS: LazyLock<Vec<Robot>> =
         LazyLock::new(|| ["five-bar", "3-rrr"].iter().filter_map(|name| catalogue::find(name)).collect());

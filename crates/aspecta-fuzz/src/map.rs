@@ -12,7 +12,8 @@ const SOME: usize = 4;
 /// The nodes of a grid that is drawn in no time.
 const PAINTED: usize = 5_000;
 
-/// Maps, or the JSON in them: one that is read is written and read again as the same, printed, drawn, and looked up in.
+/// Maps, or the JSON in them: one that is read is written and read again as the same, printed, drawn, and
+/// looked up in.
 pub fn map(text: &[u8]) {
     let read = if Map::is_map(text) { Map::from_bytes(text) } else { Map::from_bytes(&packed(text)) };
     let map = match read {

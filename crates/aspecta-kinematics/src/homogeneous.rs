@@ -5,8 +5,8 @@ use aspecta_robot::num::{Interval, Scalar};
 use nalgebra::DMatrix;
 
 /// The scaling that makes A into Â: moments are divided by the
-/// [characteristic length](Robot::characteristic_length), unless the platform only turns, and then every row by its
-/// norm. |det Â| ≤ 1, as the product of the norms of the rows bounds a determinant (Hadamard).
+/// [characteristic length](Robot::characteristic_length), unless the platform only turns, and then every row by
+/// its norm. |det Â| ≤ 1, as the product of the norms of the rows bounds a determinant (Hadamard).
 #[derive(Clone, Copy, Debug)]
 pub struct Homogeneous {
     translations: usize,

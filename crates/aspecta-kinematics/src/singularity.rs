@@ -87,8 +87,8 @@ pub struct State {
     /// The smallest singular value of the homogeneous A: its distance (2-norm) from the nearest
     /// singular matrix. 0 at a parallel singularity, at most 1.
     ///
-    /// Row j of the homogeneous A, Â, is the wrench of leg j, moments divided by [`Robot::characteristic_length`]
-    /// (unless the platform only turns), divided by its norm.
+    /// Row j of the homogeneous A, Â, is the wrench of leg j, moments divided by
+    /// [`Robot::characteristic_length`] (unless the platform only turns), divided by its norm.
     pub parallel_measure: f64,
     /// Per leg |B_jj| / max |B_jj|, in [0, 1]: √ of [`LegSolutions::reach`](super::LegSolutions::reach). For
     /// revolute legs of the plane |sin| of the elbow angle, for prismatic legs |sin| of the angle between rail and

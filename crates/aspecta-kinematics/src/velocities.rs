@@ -26,8 +26,8 @@ pub struct Velocities {
     /// The kernel of A: twists that the platform gains, which it can have while the actuators are locked
     /// (Definition 3); of length 1 if angular velocities count by [`Velocities::length`].
     pub gained: Vec<Vec<f64>>,
-    /// Per leg at a serial singularity the direction that every twist is perpendicular to, whatever the actuators
-    /// do (Definition 4).
+    /// Per leg at a serial singularity the direction that every twist is perpendicular to, whatever the
+    /// actuators do (Definition 4).
     pub lost: Vec<Lost>,
     /// −A⁻¹B, by which t = −A⁻¹B q̇, row by row; `None` at a parallel singularity.
     pub twist_of_joints: Option<Vec<Vec<f64>>>,

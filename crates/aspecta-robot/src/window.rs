@@ -187,8 +187,8 @@ impl Window {
         (lo <= x && x <= hi).then(|| (x - lo) / (hi - lo))
     }
 
-    /// A pose with each angle turned into the window ([`Window::turned_in`]), and of a body that turns in space told with a pitch within
-    /// ±90° if the window goes no further.
+    /// A pose with each angle turned into the window ([`Window::turned_in`]), and of a body that turns in space
+    /// told with a pitch within ±90° if the window goes no further.
     pub fn turned(&self, pose: &[f64]) -> Vec<f64> {
         let mut pose = pose.to_vec();
         if let [.., roll, pitch, yaw] = &mut pose[..]

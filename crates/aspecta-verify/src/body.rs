@@ -185,7 +185,8 @@ impl<'a, T: Scalar, const D: usize> Body<'a, T, D> {
         kinds::reach(&self.robot.legs[j].actuator, d)
     }
 
-    /// What H of leg j is at most, given C − A in its frame: infinite where nothing else than [`Body::reach`] is known.
+    /// What H of leg j is at most, given C − A in its frame: infinite where nothing else than [`Body::reach`]
+    /// is known.
     pub(super) fn most_reach(&self, j: usize, d: &[Interval; D]) -> f64 {
         match self.own_of(j) {
             Some(_) => f64::INFINITY,

@@ -17,8 +17,8 @@ pub fn writable(dir: &Path) -> io::Result<()> {
 }
 
 /// Writes `content` into `dir` under a temporary name that nobody can guess, renames it to `name`, and returns
-/// the path. Links are followed, and what is there but no regular file (a device, a pipe) is written into as
-/// it is.
+/// the path. Links are followed, and what is there but no regular file (a device, a pipe) is written into as it
+/// is.
 ///
 /// # Errors
 /// Those of the file system, and a link that leads nowhere; then no file is left behind.

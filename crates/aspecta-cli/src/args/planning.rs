@@ -16,8 +16,8 @@ use std::path::PathBuf;
 /// How the robot is analysed before anything is planned.
 #[derive(Args)]
 pub struct Analysing {
-    /// When to stop telling the aspects apart, as for `analyze`; half of a time is for that, the rest for what follows [default: depth=11 for 2
-    /// coordinates, depth=7 for 3; two deeper where a plan is not found]
+    /// When to stop telling the aspects apart, as for `analyze`; half of a time is for that, the rest for what
+    /// follows [default: depth=11 for 2 coordinates, depth=7 for 3; two deeper where a plan is not found]
     #[arg(long, value_parser = budget::parse, allow_hyphen_values = true)]
     pub budget: Option<Budget>,
     #[command(flatten)]

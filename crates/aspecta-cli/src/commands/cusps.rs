@@ -127,8 +127,8 @@ fn print(out: &mut dyn Write, robot: &Robot, found: &cusps::Cusps, degrees: bool
 /// Undecided boxes of one mode and one reason that are told one by one; more are told together.
 const FEW: usize = 3;
 
-/// Returns the undecided boxes, or what holds many of them, each with the modes it is undecided in: a budget that is
-/// spent leaves the same in many.
+/// Returns the undecided boxes, or what holds many of them, each with the modes it is undecided in: a budget
+/// that is spent leaves the same in many.
 fn undecided(robot: &Robot, boxes: &[Undecided], degrees: bool) -> Vec<(Vec<String>, String)> {
     let mut all: Vec<(Vec<String>, String)> = Vec::new();
     let mut clusters: Vec<Vec<&Undecided>> = Vec::new();

@@ -47,7 +47,8 @@ impl Locate {
         let robot = source.robot().clone();
         let layout = [self.layout(&robot)?];
         let found = self.configurations(&robot, &layout)?;
-        // From a map they are answered as they come; a map that is to be made is that of the aspects they are in.
+        // From a map they are answered as they come; a map that is to be made is that of the aspects they are
+        // in.
         let computed = matches!(source, Source::Robot(_));
         let (held, coming) = if computed { (input::held(found)?, None) } else { (Vec::new(), Some(found)) };
         let (map, _) = watched(self.threads, |control| {

@@ -67,7 +67,8 @@ impl Plan {
         if let Some(refused) = self.planning.refused(&robot, ends, through, &options)? {
             return motion::print(out, &robot, &refused, &self.planning);
         }
-        // A picture shows the aspect; else a straight way needs none, and of three coordinates aspects take long.
+        // A picture shows the aspect; else a straight way needs none, and of three coordinates aspects take
+        // long.
         if robot.dof() == 3
             && !through
             && self.planning.moving.out.directory().is_none()

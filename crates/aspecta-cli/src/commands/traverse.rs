@@ -61,8 +61,8 @@ struct Set {
     /// A box of poses: a range lo:hi (or one value) per coordinate, as in 2:6,8:10 or 0:1,0:1,-0.1:0.1
     #[arg(long = "box", value_name = "RANGES", allow_hyphen_values = true)]
     ranges: Option<String>,
-    /// A disc, or with a range of z a cylinder: x and y lie within --radius of those given, the other coordinates in the ranges (or
-    /// at the values) given, as in 0,0,-1100:-900
+    /// A disc, or with a range of z a cylinder: x and y lie within --radius of those given, the other
+    /// coordinates in the ranges (or at the values) given, as in 0,0,-1100:-900
     #[arg(
         long,
         value_name = "RANGES",

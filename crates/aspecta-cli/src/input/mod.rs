@@ -63,8 +63,8 @@ impl Columns {
     }
 }
 
-/// Warns, once, of an angle in radians that is more than a full turn, and not so great that it is refused: `way` is
-/// how degrees are given.
+/// Warns, once, of an angle in radians that is more than a full turn, and not so great that it is refused:
+/// `way` is how degrees are given.
 pub fn warn_of_degrees(name: &str, angle: f64, way: &str) {
     static WARNED: Once = Once::new();
     if angle.abs() > TAU && angle.abs() < GREATEST {

@@ -38,8 +38,8 @@ pub fn held<T>(mut rows: impl Iterator<Item = Result<T, Failure>>) -> Result<Vec
     }
 }
 
-/// The rows of a CSV file (`-` is stdin), each with the columns of one of `layouts` (the first that fits), one at a
-/// time as they come. An input without any is an error.
+/// The rows of a CSV file (`-` is stdin), each with the columns of one of `layouts` (the first that fits), one
+/// at a time as they come. An input without any is an error.
 ///
 /// A first line without any number is a header: then columns are found by name, in any order, and others
 /// are ignored, so that what one command prints another can read. Empty lines and lines that start with

@@ -1,4 +1,5 @@
-//! Prints what is found of the vectors a command is asked about: each as soon as it is found, however many there are.
+//! Prints what is found of the vectors a command is asked about: each as soon as it is found, however many
+//! there are.
 
 use super::{FORMAT_VERSION, Format, json};
 use crate::failure::{Answer, Failure};
@@ -61,7 +62,8 @@ pub fn print_each<S: Shown>(
     found.failure.map_or(Ok(Answer::from(positive)), Err)
 }
 
-/// JSON: the list of what was found, of the rows of a file with their lines; of one vector it stands at the top too.
+/// JSON: the list of what was found, of the rows of a file with their lines; of one vector it stands at the top
+/// too.
 fn print_json<S: Shown>(
     mut out: &Shared<'_>,
     shown: &S,

@@ -181,7 +181,8 @@ fn usual_options(robot: &Robot, free: usize) -> DomainOptions {
     }
 }
 
-/// The boundary of an aspect and its characteristic surface, about as fine as the regions; `None` once cancelled.
+/// The boundary of an aspect and its characteristic surface, about as fine as the regions; `None` once
+/// cancelled.
 fn surfaces(
     analysis: &Arc<Analysis>,
     domains: &Domains,

@@ -24,8 +24,8 @@ use std::sync::Arc;
 const FINER: u32 = 2;
 
 impl Analysing {
-    /// The aspects of a robot, or of some of its modes (none: all), and what `work` makes of them. A time budget
-    /// is for both: what the aspects leave of it, half at least, is for the rest.
+    /// The aspects of a robot, or of some of its modes (none: all), and what `work` makes of them. A time
+    /// budget is for both: what the aspects leave of it, half at least, is for the rest.
     pub fn with<T>(
         &self,
         robot: &Robot,
@@ -35,8 +35,8 @@ impl Analysing {
         self.with_finer(robot, modes, |analysis, control| Ok((work(analysis, control)?, false)))
     }
 
-    /// [`Analysing::with`], once more over finer boxes where `work` says that they may tell more, [`FINER`] times at most and
-    /// only if no budget is given.
+    /// [`Analysing::with`], once more over finer boxes where `work` says that they may tell more, [`FINER`]
+    /// times at most and only if no budget is given.
     pub fn with_finer<T>(
         &self,
         robot: &Robot,
@@ -177,8 +177,8 @@ pub struct Planned {
 }
 
 impl Planning {
-    /// The result with the page that plays it, if that is wanted: with the aspects that were analysed, and in its own time where the
-    /// motion has one.
+    /// The result with the page that plays it, if that is wanted: with the aspects that were analysed, and in
+    /// its own time where the motion has one.
     pub fn film(
         &self,
         robot: &Robot,

@@ -17,8 +17,8 @@ pub struct Found {
     pub complete: Option<bool>,
 }
 
-/// Returns all inverse solutions at a pose, given alone or in a line of a file; says why if there are none, which
-/// is an answer.
+/// Returns all inverse solutions at a pose, given alone or in a line of a file; says why if there are none,
+/// which is an answer.
 pub fn inverse(robot: &Robot, pose: &[f64], line: Option<u64>) -> Result<Vec<Solution>, Failure> {
     let Some(solutions) = answered(robot.inverse(pose), line)? else { return Ok(Vec::new()) };
     if solutions.is_empty() {
@@ -53,8 +53,8 @@ pub fn direct(robot: &Robot, query: Query, mode: Option<WorkingMode>) -> Result<
     Ok(Found { query, solutions, complete: Some(complete) })
 }
 
-/// What is found of a vector given alone or in a line of a file; there, one that cannot be asked about does not cost
-/// the others: it is named, and has no answer.
+/// What is found of a vector given alone or in a line of a file; there, one that cannot be asked about does not
+/// cost the others: it is named, and has no answer.
 pub fn answered<T>(found: Result<T, KinematicsError>, line: Option<u64>) -> Result<Option<T>, Failure> {
     match (found, line) {
         (Ok(found), _) => Ok(Some(found)),

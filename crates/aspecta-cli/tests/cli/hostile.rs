@@ -39,7 +39,8 @@ fn map() -> (TempDir, String) {
     (directory, path)
 }
 
-/// Each command that takes many rows, in each format that it streams, with a row and the last words of its answer.
+/// Each command that takes many rows, in each format that it streams, with a row and the last words of its
+/// answer.
 fn streams(map: &str) -> Vec<(String, &'static str, &'static str)> {
     let mut streams = Vec::new();
     for (command, row, csv, json) in [

@@ -14,8 +14,8 @@ use serde::{Deserialize, Serialize};
 /// when the robot is moved, scaled or its legs are renumbered.
 ///
 /// - *parallel*: |det Â| ≥ `parallel`, Â being A with moments divided by the
-///   [characteristic length](Robot::characteristic_length) (unless the platform only turns) and then every row by its
-///   norm. 0 at a parallel singularity, at most 1.
+///   [characteristic length](Robot::characteristic_length) (unless the platform only turns) and then every row
+///   by its norm. 0 at a parallel singularity, at most 1.
 /// - *serial*: |B_jj| / max |B_jj| ≥ `serial` for every leg j:
 ///   [`State::serial_measures`](crate::State::serial_measures). 0 at a serial singularity, at most 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -1,11 +1,12 @@
-//! How far inside the user's window a placement is. The window bounds no aspect of the robot, but the paths asked about.
+//! How far inside the user's window a placement is. The window bounds no aspect of the robot, but the paths
+//! asked about.
 
 use crate::placement::Placement;
 use aspecta_robot::Robot;
 use aspecta_robot::num::{Interval, Scalar};
 
-/// Per coordinate that the user's window cuts, its index and a function that is > 0 strictly inside; angles count by
-/// full turns.
+/// Per coordinate that the user's window cuts, its index and a function that is > 0 strictly inside; angles
+/// count by full turns.
 pub(crate) fn window_margins<T: Scalar, const D: usize>(
     robot: &Robot,
     at: &Placement<T, D>,
@@ -25,8 +26,8 @@ fn margin<T: Scalar, const D: usize>(
     let Some(r) = at.rotation().filter(|_| robot.platform.coordinates()[k].angle) else {
         return between(at.origin()[k], low, high);
     };
-    // R = R_z(yaw) R_y(pitch) R_x(roll): its last row is (−sin pitch, cos pitch sin roll, cos pitch cos roll), its
-    // first column (cos yaw cos pitch, sin yaw cos pitch, −sin pitch).
+    // R = R_z(yaw) R_y(pitch) R_x(roll): its last row is (−sin pitch, cos pitch sin roll, cos pitch cos roll),
+    // its first column (cos yaw cos pitch, sin yaw cos pitch, −sin pitch).
     let last = D - 1;
     let turned = |(sin, cos): (T, T)| {
         let half = Interval::point(0.5);

@@ -80,8 +80,8 @@ pub enum CurveEnd {
     Lost,
 }
 
-/// The curves of cusps of a robot with n = 3, of which no joint is held; the boxes of the options are for all slices
-/// together. None for platforms that do not turn. Once cancelled, those found so far.
+/// The curves of cusps of a robot with n = 3, of which no joint is held; the boxes of the options are for all
+/// slices together. None for platforms that do not turn. Once cancelled, those found so far.
 ///
 /// # Errors
 /// [`CuspError`] as [`cusps`]; [`CuspError::NoRange`] if no joint has a range to slice.

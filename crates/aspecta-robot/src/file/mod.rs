@@ -84,8 +84,8 @@ impl Robot {
         }
     }
 
-    /// The robot that an input describes, of which no more is read than the largest file may hold. `file` is its name
-    /// in messages.
+    /// The robot that an input describes, of which no more is read than the largest file may hold. `file` is
+    /// its name in messages.
     ///
     /// # Errors
     /// As [`Robot::load`].

@@ -19,7 +19,8 @@ use std::path::{Path, PathBuf};
 /// Version of the file format; raised when a field changes its meaning or goes away.
 pub const FORMAT_VERSION: u32 = 2;
 
-/// The largest file that is read, in bytes: more than an analysis of as many boxes as there may be writes, some 16 bytes each.
+/// The largest file that is read, in bytes: more than an analysis of as many boxes as there may be writes, some
+/// 16 bytes each.
 const LARGEST: u64 = 1 << 30;
 
 /// Bounds on the numbers of aspects and what proves them.

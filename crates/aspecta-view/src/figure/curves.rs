@@ -136,9 +136,9 @@ impl Sheet<'_> {
     }
 
     /// The image g_s(curve) in Q, refined until no coordinate q_k steps by more than `step[k]`; angles are
-    /// unwound, so that each line is continuous. Where a leg is folded (C on the axis of its crank) its joint is
-    /// free, and all its values are the image of that serial singularity, whatever curve leads to it: lines end
-    /// there, and one goes through the joint's whole range.
+    /// unwound, so that each line is continuous. Where a leg is folded (C on the axis of its crank) its joint
+    /// is free, and all its values are the image of that serial singularity, whatever curve leads to it: lines
+    /// end there, and one goes through the joint's whole range.
     pub fn images(&self, curve: &Curve, step: &[f64]) -> Vec<Image> {
         let Some(&first) = curve.points.first() else { return Vec::new() };
         let first = (first, self.barriers(first));

@@ -429,8 +429,8 @@ pub struct Run {
     pub stop: Stop,
     /// Wall-clock seconds.
     pub seconds: f64,
-    /// The seconds that the budget allowed, if it did. The step that is under way when they are over, a count or the
-    /// report, is ended; none is begun that is expected to take longer.
+    /// The seconds that the budget allowed, if it did. The step that is under way when they are over, a count
+    /// or the report, is ended; none is begun that is expected to take longer.
     pub allowed_seconds: Option<f64>,
 }
 

@@ -25,7 +25,8 @@ pub struct Partition {
     others: Vec<Pose>,
     /// Nodes at which the direct model failed: they count as having one solution.
     pub failed: usize,
-    /// Nodes next to which another part of the aspect passes that is thinner than a cell: they are in no region.
+    /// Nodes next to which another part of the aspect passes that is thinner than a cell: they are in no
+    /// region.
     pub thin: BTreeSet<usize>,
 }
 

@@ -75,8 +75,8 @@ pub struct Domains {
     pub measure: f64,
     /// Its basic regions, largest first.
     pub regions: Vec<BasicRegion>,
-    /// The nodes in parts thinner than two cells, which could not be joined to a region, and, where two coordinates
-    /// vary of three at most, those next to which such a part passes between the nodes.
+    /// The nodes in parts thinner than two cells, which could not be joined to a region, and, where two
+    /// coordinates vary of three at most, those next to which such a part passes between the nodes.
     pub unresolved: Unresolved,
     /// Pairs of regions that touch.
     pub adjacent: Vec<(RegionId, RegionId)>,
@@ -91,8 +91,9 @@ pub struct Domains {
     /// The maximal uniqueness domains, largest first. On a slice, its parts of uniqueness domains: none holds two regions of which it is
     /// undecided whether their images coincide, so there may be larger ones.
     pub uniqueness: Vec<UniquenessDomain>,
-    /// Whether `uniqueness` holds all of them, to a cell of the grid: all sets of regions were looked at, and nothing was
-    /// seen to pass between the nodes. (Poses that disagree with the direct model are listed in `agreement`.)
+    /// Whether `uniqueness` holds all of them, to a cell of the grid: all sets of regions were looked at, and
+    /// nothing was seen to pass between the nodes. (Poses that disagree with the direct model are listed in
+    /// `agreement`.)
     pub complete: bool,
     /// Two poses with one joint vector in one basic region, if found: Theorem 2 does not hold there.
     pub violations: Vec<Violation>,

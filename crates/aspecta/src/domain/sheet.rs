@@ -128,8 +128,8 @@ impl<'a> Sheet<'a> {
         true
     }
 
-    /// How many direct solutions the joint vector of a pose has in the aspect, the pose among them; `None` outside the
-    /// aspect, and where the direct model fails.
+    /// How many direct solutions the joint vector of a pose has in the aspect, the pose among them; `None`
+    /// outside the aspect, and where the direct model fails.
     pub fn count(&self, pose: &[f64]) -> Option<u8> {
         let joints = self.joints(pose)?;
         let mut count = 1;

@@ -1,7 +1,7 @@
 //! Parts of regions that pass between the nodes: the tips of wedges, which grow thinner than a cell.
 //!
-//! A wedge begins where two regions meet, so it is followed from there: edges of the grid near places where the count
-//! is known to change are looked at in between, and where it changes there too, those near these.
+//! A wedge begins where two regions meet, so it is followed from there: edges of the grid near places where the
+//! count is known to change are looked at in between, and where it changes there too, those near these.
 
 use super::grid::Pose;
 use super::partition::Partition;
@@ -16,9 +16,9 @@ const PARTS: usize = 16;
 const REACH: usize = 2;
 
 impl Partition {
-    /// The nodes at both ends of edges with the same count at both ends and another one in between, as far as such
-    /// edges lead from those with two counts. On grids of two axes, of robots with up to three coordinates: else there
-    /// are too many edges, or a direct problem costs too much.
+    /// The nodes at both ends of edges with the same count at both ends and another one in between, as far as
+    /// such edges lead from those with two counts. On grids of two axes, of robots with up to three
+    /// coordinates: else there are too many edges, or a direct problem costs too much.
     pub(super) fn thin(&self, sheet: &Sheet<'_>, control: &Control<'_>) -> BTreeSet<usize> {
         let grid = &self.labels.grid;
         let mut thin = BTreeSet::new();

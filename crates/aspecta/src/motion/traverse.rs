@@ -4,6 +4,8 @@
 //! singularity. For a set of separate poses the same aspect lets the robot go from any of them to any other, on a path that may
 //! leave the set. With changes of working mode it is enough that each pose lies in some aspect of one group of [`ModeGraph::groups`].
 
+mod circle;
+
 use super::between;
 use super::modes::ModeGraph;
 use super::plan::refusal::aspect_at;
@@ -16,6 +18,7 @@ use aspecta_kinematics::placement::Placement;
 use aspecta_kinematics::{KinematicsError, WorkingMode, check_pose, for_platform};
 use aspecta_robot::num::{Interval, Scalar, Slope};
 use aspecta_robot::{Robot, Window};
+use circle::Circle;
 use serde::Serialize;
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
@@ -31,9 +34,11 @@ const SEGMENT_EFFORT: usize = 50_000;
 pub enum PoseSet {
     /// All poses with every coordinate in its range.
     Box(Vec<(f64, f64)>),
-    /// The poses of a box of which some coordinates lie within a circle or a sphere: a disc, a cylinder, a ball.
+    /// The poses of a box of which some coordinates lie within a circle or a sphere: a disc, a cylinder, a
+    /// ball.
     Round {
-        /// The range of every coordinate; of those that are round, from one end of the circle or sphere to the other.
+        /// The range of every coordinate; of those that are round, from one end of the circle or sphere to the
+        /// other.
         ranges: Vec<(f64, f64)>,
         /// Which coordinates are round, by index.
         round: Vec<usize>,
@@ -156,7 +161,8 @@ impl PoseSet {
         self.parts().iter().flatten().try_for_each(|pose| check_pose(robot, pose))
     }
 
-    /// Returns the round set about `centre`: `round` coordinates, by index, lie within `radius` of it, the others in the ranges given.
+    /// Returns a round set: coordinates `round`, by index, lie within `radius` of the middles of their ranges,
+    /// the others in theirs.
     ///
     /// # Examples
     /// ```
@@ -173,8 +179,8 @@ impl PoseSet {
         Self::Round { ranges, round, radius }
     }
 
-    /// Poses of which it is the hull, one list for each part that hangs together: the corners of a box, what lies furthest along each
-    /// coordinate of a round set, each pose by itself, each path.
+    /// Poses of which it is the hull, one list for each part that hangs together: the corners of a box, what
+    /// lies furthest along each coordinate of a round set, each pose by itself, each path.
     fn parts(&self) -> Vec<Vec<Vec<f64>>> {
         match self {
             Self::Round { ranges, .. } => {
@@ -195,8 +201,9 @@ impl PoseSet {
         }
     }
 
-    /// A pose that lies outside the window, and whether that is sure: each part is turned as a whole, since its angles are real numbers that
-    /// must not jump. Of a part that is told beyond the pole of the pitch it is not known.
+    /// A pose that lies outside the window, and whether that is sure: each part is turned as a whole, since its
+    /// angles are real numbers that must not jump. Of a part that is told beyond the pole of the pitch it is
+    /// not known.
     fn beyond(&self, window: &Window) -> Option<(Vec<f64>, bool)> {
         let of_part = |part: Vec<Vec<f64>>| {
             let first = part.first()?;
@@ -287,31 +294,8 @@ fn centre(ranges: &[(f64, f64)]) -> Vec<f64> {
     ranges.iter().map(|r| 0.5 * (r.0 + r.1)).collect()
 }
 
-/// The circle or sphere that cuts a box.
-struct Circle<'a> {
-    centre: Vec<f64>,
-    round: &'a [usize],
-    radius: f64,
-}
-
-impl Circle<'_> {
-    /// The pose of a box that is nearest to the centre, and whether it surely lies within, or surely not: then
-    /// nothing of the box does.
-    fn nearest(&self, part: &[Interval]) -> (Vec<f64>, Option<bool>) {
-        let mut pose: Vec<f64> = part.iter().map(|x| x.mid()).collect();
-        let mut square = Interval::point(0.0);
-        for &k in self.round {
-            pose[k] = self.centre[k].clamp(part[k].lo, part[k].hi);
-            square = square + (Interval::point(pose[k]) - Interval::point(self.centre[k])).square();
-        }
-        let room = Interval::point(self.radius).square() - square;
-        let holds = if room.is_negative() { Some(false) } else { (room.lo >= 0.0).then_some(true) };
-        (pose, holds)
-    }
-}
-
-/// `None` if the box, or what a circle leaves of it, is proved to lie in the class: by bisection, all constraints > 0 on every part that it
-/// meets. It is connected, so it lies in one aspect then.
+/// `None` if the box, or what a circle leaves of it, is proved to lie in the class: by bisection, all
+/// constraints > 0 on every part that it meets. It is connected, so it lies in one aspect then.
 fn over_box<const D: usize, const N: usize>(
     robot: &Robot,
     demand: &Demand,

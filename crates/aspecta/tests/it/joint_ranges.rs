@@ -94,7 +94,8 @@ fn paths_stay_within_the_ranges() {
     assert!(checked > cases() / 100, "{checked} paths");
 }
 
-/// The bounds of the joints of an aspect are in the ranges of these, and hold the joint values of all its inner poses.
+/// The bounds of the joints of an aspect are in the ranges of these, and hold the joint values of all its inner
+/// poses.
 #[test]
 fn ranges_of_aspects_lie_within_the_ranges() {
     let random = &mut Random::new(22);

@@ -50,8 +50,8 @@ fn slices_at_other_heights_agree_with_the_whole() {
     agree_with_the_whole(&[-0.62, 0.3, 0.7]);
 }
 
-/// At (−17.615863, −9.118162) the tip of a region with two solutions is 0.003 wide, a twentieth of a cell: poses there
-/// are said to lie in no region, and no list of regions to be complete.
+/// At (−17.615863, −9.118162) the tip of a region with two solutions is 0.003 wide, a twentieth of a cell:
+/// poses there are said to lie in no region, and no list of regions to be complete.
 #[test]
 fn what_passes_between_the_nodes_is_part_of_no_region() {
     let robot = robot("3-rrr");

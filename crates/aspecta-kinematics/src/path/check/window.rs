@@ -11,8 +11,8 @@ const SHORTEST: f64 = 1e-12;
 /// nor those shorter than this beyond the first that is in doubt.
 const SHORTEST_BEYOND: f64 = 1e-3;
 
-/// The first place at which a path is proved to leave the window, whose ends belong to it, or else may leave it.
-/// Angles go on along the path as real numbers, from the turn of its start.
+/// The first place at which a path is proved to leave the window, whose ends belong to it, or else may leave
+/// it. Angles go on along the path as real numbers, from the turn of its start.
 pub(super) fn first_beyond(
     robot: &Robot,
     poses: &[Vec<f64>],
@@ -75,8 +75,9 @@ struct Left {
 }
 
 impl Side {
-    /// The sides of a path, in the turns of its start. Beyond pitch = ±90° poses are told by half a turn more of roll and yaw: what is
-    /// told beyond is looked at from there, and where roll or yaw are cut no more is known once the pole is passed.
+    /// The sides of a path, in the turns of its start. Beyond pitch = ±90° poses are told by half a turn more
+    /// of roll and yaw: what is told beyond is looked at from there, and where roll or yaw are cut no more is
+    /// known once the pole is passed.
     fn all(robot: &Robot, start: &[f64]) -> Vec<Self> {
         let turns = robot.platform.turns();
         let flipped = turns.is_some_and(|[_, pitch, _]| start[pitch].cos() < 0.0);

@@ -11,6 +11,7 @@
 pub(super) mod cost;
 pub(super) mod refusal;
 mod roadmap;
+mod search;
 pub(super) mod shorten;
 
 pub use refusal::{End, Refusal};
@@ -22,6 +23,7 @@ use aspecta_robot::num::padded;
 use aspecta_robot::{Robot, Window, WorkingMode};
 use cost::Cost;
 use roadmap::Roadmap;
+use search::Search;
 use serde::Serialize;
 use std::collections::HashSet;
 
@@ -76,8 +78,6 @@ pub struct Planner<'a> {
 const TRIAL: usize = 200;
 /// For one that is to be returned.
 pub(super) const FINAL: usize = 100_000;
-/// Samples of the clearance along the straight way.
-const SAMPLES: u32 = 32;
 /// How often a way is looked for again because a segment of it does not keep the margins.
 const DETOURS: usize = 200;
 
@@ -107,71 +107,6 @@ impl Proof<'_> {
     }
 }
 
-/// What a path is looked for by.
-struct Search<'a> {
-    robot: &'a Robot,
-    window: &'a Window,
-    det_a: DetSign,
-    demand: Demand,
-    weight: f64,
-}
-
-impl<'a> Search<'a> {
-    fn new(
-        robot: &'a Robot,
-        window: &'a Window,
-        mode: WorkingMode,
-        det_a: DetSign,
-        options: &PlanOptions,
-    ) -> Self {
-        let demand = Demand { margins: options.margins, ..Demand::class(mode, det_a.factor()) };
-        Self { robot, window, det_a, demand, weight: options.weight }
-    }
-
-    fn cost(&self) -> Cost<'_, 3> {
-        Cost::new(self.robot, self.window, &self.demand, self.weight)
-    }
-
-    fn proof(&self) -> Proof<'_> {
-        Proof { robot: self.robot, window: self.window, demand: &self.demand }
-    }
-
-    /// The straight way, if it is proved and no other is likely to be much better.
-    fn straight(&self, [start, goal]: [Pose; 2]) -> Option<Vec<Pose>> {
-        let cost = self.cost();
-        let goal = cost.beside(&start, &goal);
-        let clearance = |t: f64| {
-            let x: Pose = std::array::from_fn(|k| start[k] + t * (goal[k] - start[k]));
-            let measures = cost.measures(&x);
-            measures.parallel.min(measures.serial)
-        };
-        let least = clearance(0.0).min(clearance(1.0));
-        let is_clear = || (1..SAMPLES).all(|i| clearance(f64::from(i) / f64::from(SAMPLES)) >= least);
-        // Of a length alone nothing is shorter.
-        let is_good = cost.is_length() || (self.weight <= 1.0 && is_clear());
-        (is_good && self.proof().holds(&start, &goal)).then(|| vec![start, goal])
-    }
-
-    /// The plan along a proved path, made cheaper.
-    fn finish(&self, path: Vec<Pose>, aspect: Option<AspectId>) -> Result<Plan, Refusal> {
-        let (cost, proof) = (self.cost(), self.proof());
-        let path = shorten::improve(&proof, &cost, path);
-        let pose = |x: &Pose| x[..self.robot.dof()].to_vec();
-        if let Some(k) = path.windows(2).position(|ends| !proof.holds_within(&ends[0], &ends[1], FINAL)) {
-            return Err(Refusal::Unproved { pose: pose(&path[k]) });
-        }
-        Ok(Plan {
-            robot: self.robot.clone(),
-            mode: self.demand.mode,
-            det_a: self.det_a,
-            aspect,
-            length: path.windows(2).map(|ends| cost.distance(&ends[0], &ends[1])).sum(),
-            waypoints: path.iter().map(pose).collect(),
-            margins: self.demand.margins,
-        })
-    }
-}
-
 impl<'a> Planner<'a> {
     /// A planner over a whole robot of two or three degrees of freedom (no slice of it).
     pub fn new(analysis: &'a Analysis) -> Self {
@@ -193,9 +128,10 @@ impl<'a> Planner<'a> {
         refusal::common_sign(robot, window, ends, mode, options.margins)
     }
 
-    /// The path between two poses that goes straight, or nearly, where no aspects need be known: it is proved, and on the straight
-    /// segment the robot is nowhere nearer to singularities than at one of its ends. `None` where there is no such path, or
-    /// nearness to singularities counts so much ([`PlanOptions::weight`] above 1) that a detour may be better.
+    /// The path between two poses that goes straight, or nearly, where no aspects need be known: it is proved,
+    /// and on the straight segment the robot is nowhere nearer to singularities than at one of its ends. `None`
+    /// where there is no such path, or nearness to singularities counts so much ([`PlanOptions::weight`] above
+    /// 1) that a detour may be better.
     ///
     /// # Errors
     /// As [`Planner::check_ends`].

@@ -202,8 +202,8 @@ fn a_window_is_left_where_the_path_crosses_it() {
     assert!(check_poses(&robot, &poses, mode("+++"), &options(Joined::Spline)).unwrap().is_sound());
 }
 
-/// Poses of a body that turns in space, however they are told: what is said of a path, and of each of its samples, is what is
-/// said of the same poses told within ±90° of pitch.
+/// Poses of a body that turns in space, however they are told: what is said of a path, and of each of its
+/// samples, is what is said of the same poses told within ±90° of pitch.
 #[test]
 fn windows_hold_poses_told_beyond_the_poles() {
     let mut random = aspecta::num::Random::new(77);

@@ -254,7 +254,8 @@ fn no_more_is_read_than_a_robot_file_may_hold() {
     assert!(Robot::read(format!("{largest} ").as_bytes(), "larger.toml").is_err());
 }
 
-/// A message is short, however long a key, a value or a line is, and a file of a long key and many values takes no time.
+/// A message is short, however long a key, a value or a line is, and a file of a long key and many values takes
+/// no time.
 #[test]
 fn what_is_long_is_not_repeated() {
     let long = "a".repeat(400_000);
