@@ -104,7 +104,7 @@ fn analyze_here(robot: &Robot, options: &Options, control: &Control<'_>) -> Resu
     }
     (control.progress)(Progress { stage: "definitions 5 and 6", done: 0, total: 1 });
     let (parallel, serial) = match &passes[..] {
-        [pass] if options.modes.is_empty() => {
+        [pass] if options.modes.is_empty() && !control.is_cancelled() => {
             work::join(|| parallel_aspects(robot, &pass.paving), || serial_aspects(robot, &pass.paving))
         }
         _ => Default::default(),

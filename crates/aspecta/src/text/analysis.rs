@@ -17,7 +17,8 @@ const LISTED: usize = 40;
 const WIDEST: usize = 4;
 
 /// What Definitions 5 and 6 need.
-pub const EARLIER_NEED: &str = "they are made of all working modes, of up to 8, together";
+pub const EARLIER_NEED: &str =
+    "they are made of all working modes, of up to 8, together, by a run that was not stopped";
 
 /// What is said after `… and 3 more`: where a program shows the rest.
 #[derive(Clone, Copy, Debug, Default)]
