@@ -142,3 +142,37 @@ fn a_plan_within_one_aspect_is_found() {
     let text = stdout(&format!("plan {robot} {ends} --mode=-+-"));
     assert!(text.contains("singularity-free  yes, certified"), "{text}");
 }
+
+/// A motion with a trajectory is played in its seconds; what bounds the aspect is named, joint limits too.
+#[test]
+fn a_page_of_a_trajectory_plays_in_seconds() {
+    let directory = tempfile::tempdir().unwrap();
+    let (out, csv) = (directory.path().join("motion"), directory.path().join("motion.csv"));
+    let plan = format!(
+        "plan {} --from=-39.313,56.25 --to=-52,24 --mode=-+ --speed 1 --acceleration 5 --trajectory {} --out {}",
+        case("five-bar-with-stops"),
+        csv.display(),
+        out.display()
+    );
+    stdout(&plan);
+    let page = std::fs::read_to_string(out.join("motion.html")).unwrap();
+    assert!(page.contains("joint limit"));
+    let (_, now) = page.split_once("class=\"now\">").unwrap();
+    let (now, _) = now.split_once("class=\"keys\"").unwrap();
+    assert!(now.contains("</span> s<"), "{now}");
+    let (_, data) = page.split_once("type=\"application/json\">").unwrap();
+    let data: Value = serde_json::from_str(data.split_once("</script>").unwrap().0).unwrap();
+    // A step of the clock is a fiftieth of a second.
+    let clock = data["clock"].as_u64().unwrap() as usize;
+    let steps: Vec<i64> = numbers(&data["tracks"][clock]).iter().map(|x| *x as i64).collect();
+    assert!(steps[0] == 0 && steps[1..steps.len() - 1].iter().all(|step| *step == 20), "{steps:?}");
+}
+
+/// What is undecided is told in a few lines, however many boxes there are.
+#[test]
+fn undecided_boxes_of_cusps_are_told_together() {
+    let run = output("cusps 3-rrr --fix q1=0.5 --boxes 3000");
+    let text = String::from_utf8(run.stdout).unwrap();
+    let lines = text.lines().filter(|line| line.starts_with("undecided")).count();
+    assert!(run.status.code() == Some(1) && (1..40).contains(&lines), "{text}");
+}

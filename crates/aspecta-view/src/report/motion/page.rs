@@ -107,9 +107,7 @@ fn controls(motion: &Motion<'_>, readout: &mut Readout<'_>) -> Markup {
                     option value=(value) selected[value == "1"] { (text) }
                 }
             } }
-            span.now {
-                @if motion.timed { (seconds) " s" } @else { "segment " (segment) ", t = " (t) }
-            }
+            span.now { "segment " (segment) ", t = " (t) @if motion.timed { ", " (seconds) " s" } }
             span.keys { "Space plays, ← → step, Home and End go to the ends." }
         }
         noscript { p { "Without script the first sample is shown." } }
