@@ -229,7 +229,7 @@ impl Planner<'_> {
     /// let options = Options { budget, ..Options::default() };
     /// let analysis = analyze(&robot, &options, &Control::unwatched())?;
     ///
-    /// let graph = ModeGraph::new(&analysis);
+    /// let graph = ModeGraph::new(&analysis, &Control::unwatched());
     /// let pose = [4.0, 7.0];
     /// let start = Configuration { pose: &pose, mode: "++".parse()? };
     /// let goal = Configuration { mode: "--".parse()?, ..start };

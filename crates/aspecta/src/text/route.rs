@@ -57,7 +57,7 @@ pub struct RouteSummary<'a> {
 ///
 /// let start = Configuration { pose: &[4.0, 7.0], mode: "++".parse()? };
 /// let goal = Configuration { mode: "--".parse()?, ..start };
-/// let graph = ModeGraph::new(&analysis);
+/// let graph = ModeGraph::new(&analysis, &Control::unwatched());
 /// let route = Planner::new(&analysis).route(&graph, start, goal, &PlanOptions::default())?;
 /// let summary = route.to_string();
 /// assert!(summary.contains("singularity-free  no parallel one, and serial ones only at 2 changes of posture"));

@@ -138,12 +138,12 @@ impl<'a> Planner<'a> {
     ///
     /// # Examples
     /// ```
-    /// use aspecta::{PlanOptions, Planner, Robot};
+    /// use aspecta::{Kinematics, PlanOptions, Planner, Robot};
     ///
     /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
     /// let robot = Robot::resolve("delta")?;
     /// let window = robot.slice(&[])?;
-    /// let ends = [&[0.0, 0.0, -1.2][..], &[0.1, 0.0, -1.2]];
+    /// let ends = [&[0.0, 0.0, -900.0][..], &[50.0, 0.0, -900.0]];
     /// let mode = robot.inverse(ends[0])?[0].mode;
     /// let plan = Planner::straight(&robot, &window, ends, mode, &PlanOptions::default())?;
     /// assert!(plan.is_some_and(|plan| plan.aspect.is_none() && plan.waypoints.len() == 2));
