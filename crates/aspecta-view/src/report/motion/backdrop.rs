@@ -167,9 +167,10 @@ impl<'a> Map<'a> {
         }
         x = swatch(svg, [x, y], UNDECIDED, "undecided");
         x = sample_line(svg, [x, y], Kind::Parallel, "det A = 0");
-        x = sample_line(svg, [x, y], Kind::Serial, "det B = 0");
+        sample_line(svg, [x, y], Kind::Serial, "det B = 0");
+        // In a row of its own: all samples in one are wider than the picture may be.
         if lines.iter().any(|line| line.0 == Kind::Limit) {
-            sample_line(svg, [x, y], Kind::Limit, "joint limit");
+            sample_line(svg, [left, y + 17.0], Kind::Limit, "joint limit");
         }
     }
 }
