@@ -188,12 +188,12 @@ impl Window {
     }
 
     /// A pose with each angle turned into the window ([`Window::turned_in`]), and of a body that turns in space
-    /// told with a pitch within ±90° if the window goes no further.
+    /// told with a pitch within ±90°, unless the window is one in which the pitch goes round.
     pub fn turned(&self, pose: &[f64]) -> Vec<f64> {
         let mut pose = pose.to_vec();
         if let [.., roll, pitch, yaw] = &mut pose[..]
             && let [.., true, true, true] = self.angles[..]
-            && self.ranges[self.ranges.len() - 2].1 <= 2.0
+            && !self.glued[self.glued.len() - 2]
         {
             level([roll, pitch, yaw]);
         }

@@ -5,7 +5,7 @@ use crate::args::robot::RobotArg;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
 use crate::show::motion;
-use crate::work::planning::{Planned, may_be_finer, plan_over_roadmap, route, straight};
+use crate::work::planning::{may_be_finer, plan_over_roadmap, route, straight};
 use aspecta::kinematics::WorkingMode;
 use aspecta::motion::modes::Configuration;
 use aspecta::motion::plan::PlanOptions;
@@ -74,7 +74,7 @@ impl Plan {
             && self.planning.moving.out.directory().is_none()
             && let Some(plan) = straight(&robot, [&from, &to], mode, &options)
         {
-            let planned = Planned { result: Ok(plan.into()), page: None };
+            let planned = self.planning.film(&robot, None, Ok(plan.into()))?;
             return motion::print(out, &robot, &planned, &self.planning);
         }
         let modes: &[WorkingMode] = if through { &[] } else { &[mode] };

@@ -78,7 +78,8 @@ fn print_json<S: Shown>(
         angle_unit: "rad",
     };
     if shown.line(&first).is_none() {
-        return json(&mut out, &One { about, answer: shown.json(&first), results: [shown.json(&first)] });
+        let answer = &shown.json(&first);
+        return json(&mut out, &One { about, answer, results: [answer] });
     }
     let found = RefCell::new(iter::once(first).chain(found));
     json(&mut out, &Many { about, results: Results { shown, found } })

@@ -68,7 +68,7 @@ pub fn print(
         Ok(route) => {
             let checks = route.checks()?;
             let is_proved = route.is_proved(&checks);
-            let mut written = moving.write(robot, route, shown.deg)?.into_iter().collect::<Vec<_>>();
+            let mut written = moving.write(robot, planned, shown.deg)?.into_iter().collect::<Vec<_>>();
             if let (Some(directory), Some(page)) = (moving.out.directory(), &planned.page) {
                 let path =
                     file::put(directory, "motion.html", page).map_err(Failure::in_directory(directory))?;

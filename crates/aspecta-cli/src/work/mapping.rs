@@ -89,7 +89,12 @@ impl Source {
         wanted: impl Fn(&Analysis) -> Result<Vec<AspectId>, Failure>,
     ) -> Result<(Map, Option<Stop>), Failure> {
         match self {
-            Self::Robot(robot) => making.map(&robot, part, surfaces, control, wanted),
+            Self::Robot(robot) => {
+                let seconds = making.budget.and_then(|budget| budget.seconds);
+                within_seconds(seconds, control, |control| {
+                    making.map(&robot, part, surfaces, control, wanted)
+                })
+            }
             Self::Map(_) if making.cells.is_some() || making.budget.is_some() => Err(Failure::Input(
                 "--cells and --budget are for robots: the map in this file is as fine as it was computed"
                     .into(),
@@ -114,22 +119,8 @@ fn neither(path: &str, failure: Failure) -> Failure {
 }
 
 impl Making {
+    /// The map of a robot; of a time budget half is for the aspects.
     fn map(
-        &self,
-        robot: &Robot,
-        part: Part,
-        with_surfaces: bool,
-        control: &Control<'_>,
-        wanted: impl Fn(&Analysis) -> Result<Vec<AspectId>, Failure>,
-    ) -> Result<(Map, Option<Stop>), Failure> {
-        let seconds = self.budget.and_then(|budget| budget.seconds);
-        within_seconds(seconds, control, |control| {
-            self.map_within(robot, part, with_surfaces, control, wanted)
-        })
-    }
-
-    /// [`Making::map`], for which the time budget is: half of it for the aspects.
-    fn map_within(
         &self,
         robot: &Robot,
         part: Part,

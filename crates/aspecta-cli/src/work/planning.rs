@@ -17,7 +17,6 @@ use aspecta::motion::time::{Piece, Row, Trajectory, Waypoint, trajectory};
 use aspecta::paving::{Control, Stop};
 use aspecta::robot::Robot;
 use aspecta_view::Motion;
-use std::path::Path;
 use std::sync::Arc;
 
 /// How often finer boxes are tried where they may tell more and no budget is given.
@@ -126,7 +125,7 @@ impl Planning {
             let ends = [start.pose, goal.pose];
             Planner::check_ends(robot, &window, ends, start.mode, options).err().map(NoRoute::from)
         });
-        Ok(refusal.map(|refusal| Planned { result: Err(refusal), page: None }))
+        Ok(refusal.map(Planned::from))
     }
 
     /// Returns how a robot that is no free body is analysed.
@@ -172,28 +171,39 @@ pub fn plan_over_roadmap(
 pub struct Planned {
     /// The route, or why there is none.
     pub result: Result<Route, NoRoute>,
+    /// The motion under joint limits, if it was asked for.
+    motion: Option<Trajectory>,
     /// The page that plays it, if it was asked for.
     pub page: Option<String>,
 }
 
+impl From<NoRoute> for Planned {
+    fn from(refusal: NoRoute) -> Self {
+        Self { result: Err(refusal), motion: None, page: None }
+    }
+}
+
 impl Planning {
-    /// The result with the page that plays it, if that is wanted: with the aspects that were analysed, and in
-    /// its own time where the motion has one.
+    /// The result with what is wanted besides: the motion under joint limits, and the page that plays it, with the
+    /// aspects that were analysed, and in its own time where the motion has one.
     pub fn film(
         &self,
         robot: &Robot,
         analysis: Option<&Analysis>,
         result: Result<Route, NoRoute>,
     ) -> Result<Planned, Failure> {
-        let route = result.as_ref().ok().filter(|_| self.moving.out.directory().is_some());
-        let page = |route: &Route| {
+        let route = match result {
+            Ok(route) => route,
+            Err(refusal) => return Ok(refusal.into()),
+        };
+        let timed = self.moving.motion(robot, &route, self.shown.deg)?;
+        let page = || {
             let mut motion = Motion::new(robot);
             if let Some(analysis) = analysis {
                 motion = motion.within(analysis);
             }
-            let timed = self.moving.motion(robot, route, self.shown.deg)?;
             let samples = match &timed {
-                Some((trajectory, _)) => vec![timed_samples(robot, trajectory)?],
+                Some(trajectory) => vec![timed_samples(robot, trajectory)?],
                 None => untimed_samples(&route.pieces(robot)),
             };
             for piece in samples.iter().flat_map(|piece| piece.chunk_by(|a, b| a.0.mode == b.0.mode)) {
@@ -204,8 +214,8 @@ impl Planning {
             }
             Ok::<_, Failure>(motion.page())
         };
-        let page = route.map(page).transpose()?;
-        Ok(Planned { result, page })
+        let page = self.moving.out.directory().map(|_| page()).transpose()?;
+        Ok(Planned { result: Ok(route), motion: timed, page })
     }
 }
 
@@ -228,15 +238,9 @@ fn timed_samples(robot: &Robot, motion: &Trajectory) -> Result<Vec<(Waypoint, f6
 }
 
 impl Moving {
-    /// The motion under joint limits, if it is wanted, and where it is written to.
-    fn motion(
-        &self,
-        robot: &Robot,
-        route: &Route,
-        degrees: bool,
-    ) -> Result<Option<(Trajectory, &Path)>, Failure> {
-        let (Some(path), Some(speed), Some(acceleration)) =
-            (&self.trajectory, &self.speed, &self.acceleration)
+    /// The motion under joint limits, if it is wanted.
+    fn motion(&self, robot: &Robot, route: &Route, degrees: bool) -> Result<Option<Trajectory>, Failure> {
+        let (Some(_), Some(speed), Some(acceleration)) = (&self.trajectory, &self.speed, &self.acceleration)
         else {
             return Ok(None);
         };
@@ -244,13 +248,13 @@ impl Moving {
         let limits = timing::limits(robot, speed, acceleration, degrees)?;
         let motion = trajectory(&route.pieces(robot), &limits)?;
         timing::check_length(&motion, self.rate.rate)?;
-        Ok(Some((motion, path)))
+        Ok(Some(motion))
     }
 
     /// Writes what was asked for, and says so.
-    pub fn write(&self, robot: &Robot, route: &Route, degrees: bool) -> Result<Option<String>, Failure> {
-        let Some((motion, path)) = self.motion(robot, route, degrees)? else { return Ok(None) };
-        let written = timing::write("--trajectory", path, robot, &motion, self.rate.rate)?;
+    pub fn write(&self, robot: &Robot, planned: &Planned, degrees: bool) -> Result<Option<String>, Failure> {
+        let (Some(path), Some(motion)) = (&self.trajectory, &planned.motion) else { return Ok(None) };
+        let written = timing::write("--trajectory", path, robot, motion, self.rate.rate)?;
         let (time, strays) =
             (brief(motion.total_time()), Labels::joints(robot, degrees).sentence(motion.path_error()));
         Ok(Some(format!("{written}\ntotal time: {time} s; joints stray from the plan by about {strays}")))

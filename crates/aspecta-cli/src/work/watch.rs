@@ -8,6 +8,7 @@ use aspecta::robot::work::Stopwatch;
 use aspecta_view::file;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::{self, IsTerminal};
+use std::panic::resume_unwind;
 use std::process;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -55,12 +56,16 @@ pub fn abandoned_if_cancelled<T: Send + 'static>(
     work: impl FnOnce() -> T + Send + 'static,
 ) -> Option<T> {
     let (done, result) = mpsc::channel();
-    thread::spawn(move || done.send(work()));
+    let worker = thread::spawn(move || done.send(work()));
     loop {
         match result.recv_timeout(TICK) {
             Ok(result) => return Some(result),
-            Err(RecvTimeoutError::Timeout) if !control.is_cancelled() => {}
-            Err(_) => return None,
+            Err(RecvTimeoutError::Timeout) if control.is_cancelled() => return None,
+            Err(RecvTimeoutError::Timeout) => {}
+            // It panicked, and so do we.
+            Err(RecvTimeoutError::Disconnected) => {
+                return worker.join().map_or_else(|e| resume_unwind(e), |_| None);
+            }
         }
     }
 }

@@ -187,8 +187,7 @@ impl Partition {
 
     /// Names the sets.
     fn label(&mut self, sets: &mut UnionFind) {
-        let inside: Vec<usize> =
-            (0..self.labels.grid.len()).filter(|&node| self.solutions[node] != 0).collect();
+        let inside: Vec<usize> = (0..self.labels.grid.len()).filter(|&node| self.is_inside(node)).collect();
         inside.iter().for_each(|&node| self.labels.region[node] = sets.root(node as u32));
         let mut size = BTreeMap::<u32, (bool, usize)>::new();
         for &node in &inside {
