@@ -22,10 +22,7 @@ enum Known {
     /// There is exactly one near each of these.
     Poses(ArrayVec<[f64; 3], 2>),
     /// Not enough: cut the range.
-    Open {
-        /// Whether nothing ties down (x, y) but ‖u‖ = R₁.
-        free: bool,
-    },
+    Open,
 }
 
 /// A function of φ and its derivative.
@@ -74,7 +71,7 @@ pub(super) fn resolve(
                         roots.push(pose)?;
                     }
                 }
-                Known::Open { .. } => parts.extend(halves(phi)),
+                Known::Open => parts.extend(halves(phi)),
             }
         }
         open = parts;
@@ -104,11 +101,36 @@ fn choose(discriminants: [f64; 3]) -> (usize, usize) {
     (order[0], order[1])
 }
 
-/// h on one side of the line `at`, with the line `other`.
-fn mismatch<T: Scalar>(triangle: &Triangle<T>, phi: T, at: usize, other: usize, side: f64) -> T {
+/// z = e^{iφ}.
+fn direction<T: Scalar>(phi: T) -> Complex<T> {
     let (sin, cos) = phi.sin_cos();
-    let Lines { w, g } = triangle.lines([cos, sin]);
+    [cos, sin]
+}
+
+/// The lines at the orientation φ.
+fn lines_at<T: Scalar>(triangle: &Triangle<T>, phi: T) -> Lines<T> {
+    triangle.lines(direction(phi))
+}
+
+/// A function of φ and its first derivative.
+fn slope_of<T: Scalar>([value, first, _]: [T; 3]) -> Jet<T, 1> {
+    Jet { value, gradient: [first] }
+}
+
+/// h on one side of the line `at`, with the line `other`.
+fn mismatch<T: Scalar>(
+    triangle: &Triangle<T>,
+    Lines { w, g }: &Lines<T>,
+    at: usize,
+    other: usize,
+    side: f64,
+) -> T {
     dot(triangle.on_circle(w[at], g[at], side), w[other]) - g[other]
+}
+
+/// Whether double precision cannot tell that there is any line: wᵢ = 0 and gᵢ = 0 for all i.
+fn nothing_ties(Lines { w, g }: &Lines<Interval>) -> bool {
+    (0..3).all(|i| norm2(w[i]).contains(0.0) && g[i].contains(0.0))
 }
 
 /// Two parts, cut off the middle, where symmetric robots like to have their solutions.
@@ -121,39 +143,46 @@ impl Problem<'_> {
     /// Whether `phi` holds an orientation at which, as far as double precision can tell, nothing ties down
     /// (x, y) but ‖u‖ = R₁.
     fn stays_free(&self, phi: Interval) -> bool {
-        matches!(self.examine(phi), Known::Open { free: true })
+        let lines = lines_at(&self.exact, phi);
+        let cuts = discriminants(&self.exact, &lines);
+        !cuts.iter().any(|d| d.is_negative() || d.is_positive())
+            && nothing_ties(&lines)
             && (phi.width() < FINEST || halves(phi).into_iter().any(|part| self.stays_free(part)))
     }
 
     /// Counts the poses in `phi`: on a side on which h is proved monotonous, the signs at the ends tell.
     fn examine(&self, phi: Interval) -> Known {
         let mut poses = ArrayVec::new();
-        let (sin, cos) = phi.sin_cos();
-        let lines = self.exact.lines([cos, sin]);
-        let cuts = discriminants(&self.exact, &lines);
+        let cuts = discriminants(&self.exact, &lines_at(&self.exact, phi));
         if cuts.iter().any(|d| d.is_negative()) {
             return Known::Poses(poses);
         }
         let (at, other) = choose(cuts.map(|d| d.lo));
         if !cuts[at].is_positive() {
-            let vanishes = |i: usize| norm2(lines.w[i]).contains(0.0) && lines.g[i].contains(0.0);
-            return Known::Open { free: (0..3).all(vanishes) };
+            return Known::Open;
         }
+        // Mean-value forms of h′ and of h, for narrow enclosures near an extremum of h.
+        let middle = Interval::point(phi.mid());
+        let lines_at_middle = self.exact.lines_in_phi(direction(middle), slope_of);
+        let lines_over = self.exact.lines_in_phi(direction(phi), |f| Jet {
+            value: slope_of(f),
+            gradient: [Jet { value: f[1], gradient: [f[2]] }],
+        });
         for side in [1.0, -1.0] {
-            let value = |phi: f64| mismatch(&self.exact, Interval::point(phi), at, other, side);
-            // Mean-value forms of h′ and of h, for narrow enclosures near an extremum of h.
-            let middle = Interval::point(phi.mid());
-            let at_middle = mismatch(&self.sloped, Jet::variable(middle, 0), at, other, side);
-            let over = mismatch(&self.curved, Jet::variable(Jet::variable(phi, 0), 0), at, other, side);
+            let at_middle = mismatch(&self.sloped, &lines_at_middle, at, other, side);
+            let over = mismatch(&self.curved, &lines_over, at, other, side);
             let [Jet { value: slope, gradient: [curvature] }] = over.gradient;
             let slope = slope.meet(at_middle.gradient[0] + curvature * (phi - middle));
             let range = at_middle.value + slope * (phi - middle);
             if !range.contains(0.0) {
                 continue;
             }
-            let ends = [value(phi.lo), value(phi.hi)];
-            match ends[0].sign() * ends[1].sign() * slope.sign().abs() {
-                0 => return Known::Open { free: false },
+            let sign_at = |phi: f64| {
+                let lines = lines_at(&self.exact, Interval::point(phi));
+                mismatch(&self.exact, &lines, at, other, side).sign()
+            };
+            match sign_at(phi.lo) * sign_at(phi.hi) * slope.sign().abs() {
+                0 => return Known::Open,
                 1 => {}
                 _ => poses.push(self.pose(phi, at, other, side)),
             }
@@ -167,13 +196,15 @@ impl Problem<'_> {
     fn approximate(&self, cuts: &[f64], roots: &mut Roots<3>) -> Result<(), SelfMotion> {
         roots.at_most = None;
         let known = roots.poses.len();
-        let (sin, cos) = cuts[cuts.len() / 2].sin_cos();
-        let (at, other) = choose(discriminants(&self.numeric, &self.numeric.lines([cos, sin])));
+        let (at, other) =
+            choose(discriminants(&self.numeric, &lines_at(&self.numeric, cuts[cuts.len() / 2])));
         let turning: Triangle<Jet<f64, 1>> = self.exact.over();
         for side in [1.0, -1.0] {
-            let positive = |phi: f64| mismatch(&self.numeric, phi, at, other, side) > 0.0;
-            let rises =
-                |phi: f64| mismatch(&turning, Jet::variable(phi, 0), at, other, side).gradient[0] > 0.0;
+            let positive = |phi: f64| self.mismatch(phi, at, other, side) > 0.0;
+            let rises = |phi: f64| {
+                let lines = self.numeric.lines_in_phi(direction(phi), slope_of);
+                mismatch(&turning, &lines, at, other, side).gradient[0] > 0.0
+            };
             let mut points = cuts.to_vec();
             for pair in cuts.windows(2).filter(|p| rises(p[0]) != rises(p[1])) {
                 let turn = bisect(pair[0], pair[1], |phi| rises(phi) == rises(pair[0]));
@@ -215,7 +246,7 @@ impl Problem<'_> {
 
     /// The pose at the one root of h in `range`: by bisection, polished if Newton's method stays there.
     fn pose(&self, range: Interval, at: usize, other: usize, side: f64) -> [f64; 3] {
-        let positive = |phi: f64| mismatch(&self.numeric, phi, at, other, side) > 0.0;
+        let positive = |phi: f64| self.mismatch(phi, at, other, side) > 0.0;
         let root = bisect(range.lo, range.hi, |phi| positive(phi) == positive(range.lo));
         let (u, z) = self.start(root, at, side);
         let (better_u, better_z) = self.numeric.polish(u, z);
@@ -226,11 +257,16 @@ impl Problem<'_> {
         if stays { self.numeric.pose(better_z, better_u) } else { self.numeric.pose(z, u) }
     }
 
+    /// h at an orientation, numerical.
+    fn mismatch(&self, phi: f64, at: usize, other: usize, side: f64) -> f64 {
+        mismatch(&self.numeric, &lines_at(&self.numeric, phi), at, other, side)
+    }
+
     /// (u, z) on one side of the line `at`, whether or not it is on the other line.
     fn start(&self, phi: f64, at: usize, side: f64) -> (Complex<f64>, Complex<f64>) {
-        let (sin, cos) = phi.sin_cos();
-        let Lines { w, g } = self.numeric.lines([cos, sin]);
-        (self.numeric.on_circle(w[at], g[at], side), [cos, sin])
+        let z = direction(phi);
+        let Lines { w, g } = self.numeric.lines(z);
+        (self.numeric.on_circle(w[at], g[at], side), z)
     }
 }
 

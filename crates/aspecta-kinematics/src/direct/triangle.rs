@@ -102,8 +102,25 @@ impl Triangle<Interval> {
 impl<T: Scalar> Triangle<T> {
     /// The linear equations for u at the orientation z = (cos φ, sin φ).
     pub fn lines(&self, z: Complex<T>) -> Lines<T> {
-        let w = [0, 1].map(|i| minus(times(self.e[i], z), self.d[i]));
-        let g = [0, 1].map(|i| self.k[i] + conjugate_times(self.d[i], times(self.e[i], z))[0]);
+        let arms = [times(self.e[0], z), times(self.e[1], z)];
+        let w = [minus(arms[0], self.d[0]), minus(arms[1], self.d[1])];
+        let g = [self.k[0] + dot(self.d[0], arms[0]), self.k[1] + dot(self.d[1], arms[1])];
+        Lines { w: [w[0], w[1], minus(w[1], w[0])], g: [g[0], g[1], g[1] - g[0]] }
+    }
+
+    /// The lines as functions of φ, each number of them as `jet` makes it of its value and its first two
+    /// derivatives: z′ = i z, so that products of jets, mostly of zeros, are not needed.
+    pub fn lines_in_phi<U: Scalar>(&self, z: Complex<T>, jet: impl Fn([T; 3]) -> U) -> Lines<U> {
+        let arms = [times(self.e[0], z), times(self.e[1], z)];
+        let turned = arms.map(|[re, im]| [-im, re]);
+        let w = [0, 1].map(|i| {
+            let part = |k: usize| jet([arms[i][k] - self.d[i][k], turned[i][k], -arms[i][k]]);
+            [part(0), part(1)]
+        });
+        let g = [0, 1].map(|i| {
+            let along = dot(self.d[i], arms[i]);
+            jet([self.k[i] + along, dot(self.d[i], turned[i]), -along])
+        });
         Lines { w: [w[0], w[1], minus(w[1], w[0])], g: [g[0], g[1], g[1] - g[0]] }
     }
 
