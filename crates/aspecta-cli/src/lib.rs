@@ -17,6 +17,8 @@ mod work;
 use clap::Parser;
 use commands::Command;
 use failure::{Answer, Failure};
+use std::env;
+use std::ffi::OsString;
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::process::ExitCode;
 
@@ -37,20 +39,26 @@ Exit status: 0 done; 1 ran, but the answer is negative or undecided; 2 bad input
 
 /// Runs the command that the program's arguments name.
 pub fn main() -> ExitCode {
-    let cli = Cli::parse();
+    ExitCode::from(run(env::args_os()))
+}
+
+/// Runs the command that some arguments name, the first being the program itself, and returns its exit status.
+/// Arguments that are wrong, and requests for help, end the process, as clap has it.
+pub fn run(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> u8 {
+    let cli = Cli::parse_from(arguments);
     let mut out = BufWriter::new(io::stdout().lock());
     let answer = cli.command.run(&mut out).and_then(|answer| {
         out.flush()?;
         Ok(answer)
     });
     match answer {
-        Ok(Answer::Yes) => ExitCode::SUCCESS,
-        Ok(Answer::No) => ExitCode::from(1),
+        Ok(Answer::Yes) => 0,
+        Ok(Answer::No) => 1,
         // The reader has seen enough, as in `aspecta robots | head -1`.
-        Err(Failure::Output(e)) if e.kind() == ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(Failure::Output(e)) if e.kind() == ErrorKind::BrokenPipe => 0,
         Err(failure) => {
             output::note(&format!("error: {failure}"));
-            ExitCode::from(2)
+            2
         }
     }
 }

@@ -5,16 +5,6 @@ use aspecta::motion::explore::Effort;
 use aspecta::paving::{Budget, MAX_DEPTH};
 use std::time::Duration;
 
-/// Returns the budget used if none is given: fine enough to work with aspects in so many free coordinates.
-pub fn coarse(free: usize) -> Budget {
-    let depth = match free {
-        0 | 1 => 16,
-        2 => 11,
-        _ => 7,
-    };
-    Budget { depth: Some(depth), ..Budget::default() }
-}
-
 /// Returns the effort of a roadmap, whose budget is a time.
 ///
 /// # Errors

@@ -1,6 +1,5 @@
 //! The source of the map of a robot's aspects: a file, or an analysis.
 
-use crate::args::budget;
 use crate::args::making::Making;
 use crate::failure::{Failure, advice};
 use crate::input;
@@ -10,7 +9,7 @@ use aspecta::domain::boundary::Boundary;
 use aspecta::domain::characteristic::Characteristic;
 use aspecta::domain::{DomainOptions, Domains, Map, MapError, MappedAspect, Surfaces, domains, slice};
 use aspecta::kinematics::WorkingMode;
-use aspecta::paving::{Control, Stop};
+use aspecta::paving::{Budget, Control, Stop};
 use aspecta::robot::{FileError, Robot};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -129,10 +128,10 @@ impl Making {
         wanted: impl Fn(&Analysis) -> Result<Vec<AspectId>, Failure>,
     ) -> Result<(Map, Option<Stop>), Failure> {
         let free = part.free(robot);
-        let mut budget = self.budget.unwrap_or_else(|| budget::coarse(free));
+        let mut budget = self.budget.unwrap_or_else(|| Budget::coarse(free));
         budget.seconds = budget.seconds.map(|seconds| 0.5 * seconds);
         let options = Options { budget, fix: part.fix, modes: part.modes, ..Options::default() };
-        let usual = usual_options(robot, free);
+        let usual = DomainOptions::usual(robot, free);
         let cells = self.cells.map_or(usual.cells, usize::from);
         let analysis = Arc::new(unkept(|| analyze(robot, &options, control))?);
         let options = DomainOptions { cells, ..usual };
@@ -156,19 +155,6 @@ impl Making {
         }
         let stop = if cancelled() { Stop::Cancelled } else { analysis.run.stop };
         Ok((Map::new(&analysis, sheets), Some(stop)))
-    }
-}
-
-/// Returns how finely regions are found and checked, by the number of free coordinates and what the direct
-/// problem costs.
-fn usual_options(robot: &Robot, free: usize) -> DomainOptions {
-    let usual = DomainOptions::default();
-    match (robot.dof(), free) {
-        (6, 2) => DomainOptions { cells: 100, samples: 2000 },
-        (6, 3) => DomainOptions { cells: 30, samples: 2000 },
-        (6, _) => DomainOptions { cells: 500, samples: 2000 },
-        (_, 3) => usual,
-        _ => DomainOptions { cells: 500, ..usual },
     }
 }
 

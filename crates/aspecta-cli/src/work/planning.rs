@@ -14,7 +14,7 @@ use aspecta::motion::explore::{self, Effort, NoWay};
 use aspecta::motion::modes::{Configuration, ModeGraph, NoRoute, Route, check_ends};
 use aspecta::motion::plan::{Plan, PlanOptions, Planner, Refusal};
 use aspecta::motion::time::{Piece, Row, Trajectory, Waypoint, trajectory};
-use aspecta::paving::{Control, Stop};
+use aspecta::paving::{Budget, Control, Stop};
 use aspecta::robot::Robot;
 use aspecta_view::Motion;
 use std::sync::Arc;
@@ -42,7 +42,7 @@ impl Analysing {
         modes: &[WorkingMode],
         mut work: impl FnMut(&Arc<Analysis>, &Control<'_>) -> Result<(T, bool), Failure>,
     ) -> Result<T, Failure> {
-        let mut budget = self.budget.unwrap_or_else(|| budget::coarse(robot.dof()));
+        let mut budget = self.budget.unwrap_or_else(|| Budget::coarse(robot.dof()));
         let seconds = budget.seconds;
         budget.seconds = seconds.map(|seconds| 0.5 * seconds);
         // In the plane all modes cost nothing to speak of, and aspects then have the numbers of `analyze`.

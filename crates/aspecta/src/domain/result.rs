@@ -6,7 +6,7 @@ use super::mesh::Mesh;
 use super::sheet::Sheet;
 use crate::aspect::{Analysis, AspectId, DetSign, Measure};
 use aspecta_robot::num::without_turns;
-use aspecta_robot::{Unbounded, Window, WorkingMode, text};
+use aspecta_robot::{Robot, Unbounded, Window, WorkingMode, text};
 use serde::{Deserialize, Serialize};
 
 /// How finely an aspect is partitioned.
@@ -21,6 +21,31 @@ pub struct DomainOptions {
 impl Default for DomainOptions {
     fn default() -> Self {
         Self { cells: 100, samples: 100_000 }
+    }
+}
+
+impl DomainOptions {
+    /// Returns how finely regions are usually found and checked where so many coordinates are free, by what the
+    /// direct problem costs.
+    ///
+    /// # Examples
+    /// ```
+    /// use aspecta::{DomainOptions, Robot};
+    ///
+    /// let robot = Robot::resolve("3-rrr")?;
+    /// assert_eq!(DomainOptions::usual(&robot, 3), DomainOptions::default());
+    /// assert_eq!(DomainOptions::usual(&robot, 2).cells, 500);
+    /// # Ok::<(), aspecta::Error>(())
+    /// ```
+    pub fn usual(robot: &Robot, free: usize) -> Self {
+        let usual = Self::default();
+        match (robot.dof(), free) {
+            (6, 2) => Self { cells: 100, samples: 2000 },
+            (6, 3) => Self { cells: 30, samples: 2000 },
+            (6, _) => Self { cells: 500, samples: 2000 },
+            (_, 3) => usual,
+            _ => Self { cells: 500, ..usual },
+        }
     }
 }
 

@@ -35,6 +35,23 @@ pub const MAX_DEPTH: u32 = 26;
 pub const PAVING_SHARE: f64 = 0.4;
 
 impl Budget {
+    /// Returns the budget that is fine enough to work with aspects where so many coordinates are free.
+    ///
+    /// # Examples
+    /// ```
+    /// use aspecta::Budget;
+    ///
+    /// assert_eq!(Budget::coarse(2), Budget { depth: Some(11), ..Budget::default() });
+    /// ```
+    pub fn coarse(free: usize) -> Self {
+        let depth = match free {
+            0 | 1 => 16,
+            2 => 11,
+            _ => 7,
+        };
+        Self { depth: Some(depth), ..Self::default() }
+    }
+
     /// The depth at which this budget ends in `window`, if it names one: the depth asked for or that of the resolution, whichever is
     /// met first.
     pub fn finest(&self, window: &Window) -> Option<u32> {

@@ -1,0 +1,161 @@
+"""The compiled part of the package: what computes. Private; its names change without notice."""
+
+from collections.abc import Callable, Sequence
+from typing import Any, Self, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+_Array = NDArray[np.float64]
+_Progress = Callable[[str, int, int], Any] | None
+_Piece = tuple[list[str], list[list[float]], list[list[float]]]
+_Planned = tuple[str, str, list[_Piece]]
+_Wanted = tuple[float, float, float]
+_Asked = tuple[str, float, float]
+_Effort = tuple[int, float | None]
+
+__all__ = [
+    "Analysis",
+    "Error",
+    "Follower",
+    "InverseFollower",
+    "Map",
+    "NoPlan",
+    "Robot",
+    "VERSION",
+    "catalogue",
+    "check_joints",
+    "check_poses",
+    "cusps",
+    "explore",
+    "join_solutions",
+    "plan_over_roadmap",
+    "run_command",
+    "schema",
+    "trajectory",
+    "verify",
+]
+
+VERSION: str
+
+class Error(ValueError): ...
+
+class NoPlan(Error):
+    #: Whether it is proved that there is no motion.
+    proved: bool
+    #: Whether finer boxes may find one.
+    finer: bool
+
+@final
+class Robot:
+    text: str
+    name: str
+    title: str
+    length_unit: str
+    platform: str
+    dof: int
+    coordinates: list[tuple[str, bool]]
+    joint_angles: list[bool]
+    modes: list[str]
+    @staticmethod
+    def from_toml(text: str, file: str) -> Robot: ...
+    @staticmethod
+    def resolve(name_or_path: str) -> Robot: ...
+    def json(self) -> str: ...
+    def mixed_units(self) -> tuple[str, float, str, float] | None: ...
+    def inverse(self, poses: _Array) -> dict[str, Any]: ...
+    def direct(self, joints: _Array) -> dict[str, Any]: ...
+    def state(self, pose: list[float], q: list[float]) -> str: ...
+    def analyze(
+        self,
+        fix: list[tuple[int, float]],
+        modes: list[str],
+        seconds: float | None,
+        boxes: int | None,
+        depth: int | None,
+        resolution: float | None,
+        certificate: bool,
+        progress: _Progress,
+    ) -> tuple[Analysis | None, BaseException | None]: ...
+    def straight(self, ends: list[list[float]], mode: str, wanted: _Wanted) -> _Planned | None: ...
+    def mjcf(self, pose: list[float], mode: str) -> tuple[str, list[str]]: ...
+
+@final
+class Analysis:
+    axes: list[int]
+    def json(self) -> str: ...
+    def text(self, degrees: bool) -> str: ...
+    def class_of(self, mode: str, det_a: float) -> int | None: ...
+    def aspect_at(self, pose: list[float], class_: int) -> int | None: ...
+    def cells(self, class_: int) -> tuple[list[list[float]], list[list[float]], list[int]]: ...
+    def certificate(self) -> str | None: ...
+    def report(self, directory: str) -> list[str]: ...
+    def domains(
+        self, aspects: list[int], cells: int | None, samples: int | None, progress: _Progress
+    ) -> tuple[Map | None, BaseException | None]: ...
+    def modes(self, progress: _Progress) -> tuple[str, str]: ...
+    def traverse(
+        self,
+        kind: str,
+        ranges: list[tuple[float, float]],
+        round: list[int],
+        radius: float,
+        lists: list[list[list[float]]],
+        through_modes: bool,
+        progress: _Progress,
+    ) -> str: ...
+    def assembly(self, q: list[float]) -> str: ...
+    def plan(
+        self, ends: list[list[float]], modes: list[str], through: bool, wanted: _Wanted, progress: _Progress
+    ) -> _Planned: ...
+
+@final
+class Map:
+    robot: tuple[str, str]
+    dof: int
+    aspects: list[int]
+    @staticmethod
+    def load(path: str) -> Map: ...
+    @staticmethod
+    def from_bytes(file: bytes) -> Map: ...
+    def to_bytes(self) -> bytes: ...
+    def domains(self, aspect: int) -> tuple[str, str] | None: ...
+    def locate(self, poses: _Array, mode: str) -> list[tuple[int, int, int, list[int], str | None]]: ...
+
+@final
+class Follower:
+    pose: list[float]
+    q: list[float]
+    mode: str
+    def __new__(cls, robot: Robot, pose: list[float], q: list[float]) -> Self: ...
+    def step(self, q: _Array) -> tuple[_Array, str, bool, bool, float, float, int]: ...
+
+@final
+class InverseFollower:
+    pose: list[float]
+    q: list[float]
+    mode: str
+    def __new__(cls, robot: Robot, pose: list[float], mode: str) -> Self: ...
+    def step(self, pose: _Array) -> tuple[_Array, bool, bool, int]: ...
+
+def catalogue() -> list[tuple[str, str]]: ...
+def schema() -> str: ...
+def run_command(arguments: Sequence[str]) -> int: ...
+def check_poses(robot: Robot, poses: list[list[float]], mode: str, asked: _Asked) -> tuple[str, str]: ...
+def check_joints(
+    robot: Robot, joints: list[list[float]], start: list[float] | None, asked: _Asked
+) -> tuple[str, str]: ...
+def trajectory(pieces: list[_Piece], speed: list[float], acceleration: list[float], rate: float) -> str: ...
+def explore(
+    robot: Robot, modes: list[str], effort: _Effort, progress: _Progress
+) -> tuple[str | None, BaseException | None]: ...
+def join_solutions(robot: Robot, q: list[float], effort: _Effort, progress: _Progress) -> str: ...
+def plan_over_roadmap(
+    robot: Robot, ends: list[list[float]], mode: str, wanted: _Wanted, effort: _Effort, progress: _Progress
+) -> _Planned: ...
+def cusps(
+    robot: Robot, fix: list[tuple[int, float]], mode: str | None, boxes: int | None, progress: _Progress
+) -> str: ...
+def verify(
+    certificate: bytes, progress: _Progress
+) -> tuple[tuple[str, str, bool] | None, BaseException | None]: ...

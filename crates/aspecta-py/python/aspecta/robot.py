@@ -1,0 +1,542 @@
+"""Robots, and what is asked of them."""
+
+from __future__ import annotations
+
+import html
+import json
+import math
+import re
+import warnings
+from collections.abc import Mapping, Sequence
+from os import PathLike, fspath
+from pathlib import Path
+from typing import Any, overload
+
+import numpy as np
+import tomli_w
+from numpy.typing import ArrayLike, NDArray
+
+from aspecta import _native, poses
+from aspecta._progress import Progress, outcome, reporter
+from aspecta.analysis import Analysis
+from aspecta.follow import Follower, InverseFollower
+from aspecta.results import (
+    AssemblyModes,
+    Cusps,
+    Exploration,
+    JoinedSolutions,
+    Motion,
+    PathCheck,
+    Plan,
+    State,
+    array_rows,
+)
+from aspecta.solutions import SolutionList, Solutions
+
+Array = NDArray[np.float64]
+
+#: Depth of boxes when an analysis is a means, by the number of coordinates that vary; as for the command line.
+_COARSE = {1: 16, 2: 11, 3: 7}
+#: How often a plan is looked for again over finer boxes.
+_FINER = 2
+#: Samples of a roadmap that is to join given poses.
+_SAMPLES = 20_000
+
+
+class UnitWarning(UserWarning):
+    """A number looks as if it were in another unit than the one it is taken in."""
+
+
+class Robot:
+    """A fully parallel robot: from the catalogue, from a file, or built from its legs.
+
+    >>> import aspecta
+    >>> robot = aspecta.Robot("five-bar")
+    >>> robot.dof, robot.modes
+    (2, ['++', '+-', '--', '-+'])
+
+    Built in code, with the keys of robot files (``docs/robot-files.md``):
+
+    >>> leg = {"actuator": {"kind": "revolute", "crank": 8, "rod": 5}}
+    >>> built = aspecta.Robot(platform="plane-point", legs=[{"anchor": [0, 0], **leg}, {"anchor": [9, 0], **leg}])
+    >>> len(built.ik([4, 7]))
+    4
+
+    Raises:
+        Error: there is no such robot, or the data makes none; the message names the file, the key and the value.
+    """
+
+    __slots__ = ("_hash", "_native")
+
+    def __init__(
+        self,
+        name_or_path: str | None = None,
+        /,
+        *,
+        platform: str | None = None,
+        legs: Sequence[Mapping[str, Any]] | None = None,
+        name: str = "robot",
+        title: str | None = None,
+        source: str | None = None,
+        length_unit: str | None = None,
+        window: Mapping[str, Any] | None = None,
+    ) -> None:
+        if (name_or_path is None) == (platform is None):
+            raise _native.Error("give the name of a robot, or its platform and legs")
+        if name_or_path is not None:
+            native = _native.Robot.resolve(fspath(name_or_path))
+        else:
+            table: dict[str, Any] = {"name": name, "title": title, "source": source, "length-unit": length_unit, "platform": platform}
+            table |= {"legs": [_plain(leg) for leg in legs or ()], "window": _plain(window)}
+            given = {key: value for key, value in table.items() if value is not None}
+            native = _native.Robot.from_toml(tomli_w.dumps(given), name)
+        self._set(native)
+
+    def _set(self, native: _native.Robot) -> None:
+        self._native = native
+        self._hash = hash(native.json())
+        mixed = native.mixed_units()
+        if mixed is not None:
+            small, a, large, b = mixed
+            warnings.warn(
+                f"{small} is {a:g} {self.length_unit} and {large} {b:g} {self.length_unit}: all lengths are in one unit",
+                UnitWarning,
+                stacklevel=3,
+            )
+
+    @classmethod
+    def from_toml(cls, text: str, file: str = "robot.toml") -> Robot:
+        """Return the robot that a text describes; ``file`` is its name in messages."""
+        robot = cls.__new__(cls)
+        robot._set(_native.Robot.from_toml(text, file))
+        return robot
+
+    @classmethod
+    def from_file(cls, path: str | PathLike[str]) -> Robot:
+        """Return the robot of a file."""
+        return cls.from_toml(Path(path).read_text(encoding="utf-8"), fspath(path))
+
+    def to_toml(self) -> str:
+        """Return the robot as the text of a robot file."""
+        return self._native.text
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the robot as it was understood, as plain data."""
+        return json.loads(self._native.json())  # type: ignore[no-any-return]
+
+    @property
+    def name(self) -> str:
+        """Its short name."""
+        return self._native.name
+
+    @property
+    def title(self) -> str:
+        """One line for people."""
+        return self._native.title
+
+    @property
+    def length_unit(self) -> str:
+        """The unit of all lengths."""
+        return self._native.length_unit
+
+    @property
+    def platform(self) -> str:
+        """How its platform moves: ``plane-point``, ``plane-body``, ``translating-body``, ``turning-body``, ``free-body``."""
+        return self._native.platform
+
+    @property
+    def dof(self) -> int:
+        """Its degrees of freedom, which is also the number of legs."""
+        return self._native.dof
+
+    @property
+    def modes(self) -> list[str]:
+        """Its working modes, such as ``"+-+"``: the signs of B_jj."""
+        return self._native.modes
+
+    @property
+    def pose_names(self) -> list[str]:
+        """The names of the pose coordinates, in their order."""
+        return [name for name, _ in self._native.coordinates]
+
+    @property
+    def joint_names(self) -> list[str]:
+        """The names of the joint coordinates: q1, q2, …"""
+        return [f"q{j + 1}" for j in range(self.dof)]
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Robot) and self._native == other._native
+
+    def __hash__(self) -> int:
+        return self._hash
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Robot.from_toml, (self.to_toml(), f"{self.name}.toml")
+
+    def __repr__(self) -> str:
+        return f"<robot {self.name}: {self.title or self.platform}>"
+
+    def _repr_html_(self) -> str:
+        heading = f"<b>{html.escape(self.name)}</b> {html.escape(self.title)}"
+        return f"{heading}<details><summary>robot file</summary><pre>{html.escape(self.to_toml())}</pre></details>"
+
+    # Single configurations.
+
+    @overload
+    def ik(self, pose: Sequence[float]) -> SolutionList: ...
+    @overload
+    def ik(
+        self,
+        pose: ArrayLike,
+        *,
+        mode: str | None = None,
+        quaternion_xyzw: ArrayLike | None = None,
+        quaternion_wxyz: ArrayLike | None = None,
+    ) -> Any: ...
+    def ik(
+        self,
+        pose: ArrayLike,
+        *,
+        mode: str | None = None,
+        quaternion_xyzw: ArrayLike | None = None,
+        quaternion_wxyz: ArrayLike | None = None,
+    ) -> SolutionList | Solutions:
+        """Solve the inverse problem: all joint vectors of a pose, one per working mode that reaches it.
+
+        Args:
+            pose: (dof,), lengths in the robot's unit, angles in rad; or (n, dof), solved on all cores. In space also
+                homogeneous matrices (4, 4) or (n, 4, 4); or positions (3,) or (n, 3) with a quaternion.
+            mode: only the solution in this working mode, such as ``"+-+"``.
+            quaternion_xyzw, quaternion_wxyz: orientations (4,) or (n, 4) of a free body, their order named.
+
+        Returns:
+            The solutions of one pose; of (n, …) poses a :class:`Solutions` with arrays.
+
+        Raises:
+            Error: the array does not fit the robot, or holds numbers that are not finite.
+        """
+        rows, many = self._poses(pose, quaternion_xyzw, quaternion_wxyz)
+        found = Solutions(self._native.inverse(rows))
+        if mode is not None:
+            found = found.in_mode(self._known(mode))
+        return found if many else found[0]
+
+    @overload
+    def fk(self, q: Sequence[float]) -> SolutionList: ...
+    @overload
+    def fk(self, q: ArrayLike, *, mode: str | None = None) -> Any: ...
+    def fk(self, q: ArrayLike, *, mode: str | None = None) -> SolutionList | Solutions:
+        """Solve the direct problem: all poses of a joint vector, in every working mode.
+
+        Args:
+            q: (dof,), lengths in the robot's unit, angles in rad; or (n, dof), solved on all cores.
+            mode: only the solutions in this working mode.
+
+        Returns:
+            The solutions of one joint vector, ``complete`` if they are proved to be all; of (n, dof) a :class:`Solutions`.
+
+        Raises:
+            Error: as :meth:`ik`; or the platform can move while the joints are locked.
+        """
+        rows, many = self._rows(q, self.joint_names, self._native.joint_angles)
+        found = Solutions(self._native.direct(rows))
+        if mode is not None:
+            found = found.in_mode(self._known(mode))
+        return found if many else found[0]
+
+    def state(self, pose: ArrayLike, q: ArrayLike) -> State | list[State]:
+        """Return the Jacobians of a configuration, its kind of singularity and its distance from singularities.
+
+        Of several, (n, dof) each, a list. The pose and the joint vector need not belong together: look at ``residual``.
+        """
+        xs, many = self._poses(pose, None, None)
+        qs, _ = self._rows(q, self.joint_names, self._native.joint_angles)
+        if len(xs) != len(qs):
+            raise _native.Error(f"{len(xs)} poses and {len(qs)} joint vectors: give as many of each")
+        found = [State(self._native.state(x, y)) for x, y in zip(xs.tolist(), qs.tolist(), strict=True)]
+        return found if many else found[0]
+
+    def follower(self, pose: ArrayLike, q: ArrayLike) -> Follower:
+        """Return a :class:`Follower` that starts in a configuration, and follows its pose along joint vectors."""
+        return Follower(_native.Follower(self._native, _vector(pose), _vector(q)))
+
+    def inverse_follower(self, pose: ArrayLike, mode: str) -> InverseFollower:
+        """Return an :class:`InverseFollower` that starts at a pose in a mode, and follows its joints along poses."""
+        return InverseFollower(_native.InverseFollower(self._native, _vector(pose), self._known(mode)))
+
+    def matrix(self, pose: ArrayLike) -> Array:
+        """Return poses (…, dof) of a platform in space as homogeneous matrices (…, 4, 4)."""
+        return poses.to_matrix(self.platform, pose)
+
+    # Aspects.
+
+    def analyze(
+        self,
+        *,
+        fix: Mapping[str, float] | None = None,
+        modes: str | Sequence[str] = (),
+        seconds: float | None = None,
+        boxes: int | None = None,
+        depth: int | None = None,
+        resolution: float | None = None,
+        certificate: bool = False,
+        progress: Progress = None,
+    ) -> Analysis:
+        """Find the generalized aspects (Def. 8), with certified bounds on their number.
+
+        Args:
+            fix: coordinates to hold, such as ``{"phi": 0.5}`` (rad): the slice with these values is analysed.
+            modes: working modes to analyse; all if left out.
+            seconds, boxes, depth, resolution: when to stop before the bounds meet, whichever comes first; without any, when
+                they have met.
+            certificate: whether to keep the proof, as :attr:`Analysis.certificate`.
+            progress: called as ``progress(stage, done, total)`` now and then, or ``True`` for a bar.
+
+        Raises:
+            Error: the workspace is unbounded, or more than three coordinates vary.
+            KeyboardInterrupt: with ``partial``, the analysis so far, or ``None``.
+
+        >>> import aspecta
+        >>> found = aspecta.Robot("five-bar").analyze()
+        >>> found.low, found.high
+        (10, 10)
+        """
+        wanted = [modes] if isinstance(modes, str) else list(modes)
+        native, interrupted = self._native.analyze(
+            self._held(fix, self.pose_names, [angle for _, angle in self._native.coordinates]),
+            [self._known(mode) for mode in wanted],
+            seconds,
+            boxes,
+            depth,
+            resolution,
+            certificate,
+            reporter(progress),
+        )
+        found: Analysis = outcome(None if native is None else Analysis(self, native), interrupted)
+        return found
+
+    def explore(
+        self,
+        *,
+        modes: str | Sequence[str] = (),
+        samples: int = 4096,
+        seconds: float | None = None,
+        progress: Progress = None,
+    ) -> Exploration:
+        """Explore the classes of a robot with six coordinates by roadmaps whose segments are proved."""
+        wanted = [modes] if isinstance(modes, str) else list(modes)
+        effort = (samples, seconds)
+        found, interrupted = _native.explore(self._native, wanted, effort, reporter(progress))
+        result: Exploration = outcome(None if found is None else Exploration(found), interrupted)
+        return result
+
+    def cusps(
+        self,
+        *,
+        fix: Mapping[str, float] | None = None,
+        mode: str | None = None,
+        boxes: int | None = None,
+        progress: Progress = None,
+    ) -> Cusps:
+        """Find where three direct solutions meet: all cusps of the slice in which a joint is held, such as
+        ``fix={"q1": 14.98}``, proved; without ``fix``, of a robot with three coordinates, the curves they form.
+        """
+        held = self._held(fix, self.joint_names, self._native.joint_angles)
+        return Cusps(_native.cusps(self._native, held, mode, boxes, reporter(progress)))
+
+    # Paths.
+
+    def check_path(
+        self,
+        poses: ArrayLike | None = None,
+        *,
+        mode: str | None = None,
+        joints: ArrayLike | None = None,
+        start: ArrayLike | None = None,
+        joined: str = "straight",
+        avoid: tuple[float, float] = (0.0, 0.0),
+    ) -> PathCheck:
+        """Check whether a path meets a singularity, leaves limits or comes too near, between its samples too.
+
+        Args:
+            poses: (n, dof), in the working mode ``mode``; or
+            joints: (n, dof), which start at the pose ``start`` (needed where the first has several).
+            joined: how samples are joined: ``"straight"``, by a ``"spline"``, or ``"none"``.
+            avoid: the margins to keep: the least ``|det Â|`` and the least ``|B_jj| / max |B_jj|``.
+
+        Raises:
+            Error: what is given is no path of the robot.
+        """
+        asked = (joined, float(avoid[0]), float(avoid[1]))
+        if (poses is None) == (joints is None):
+            raise _native.Error("give a path of poses, or of joints")
+        if joints is not None:
+            first = None if start is None else _vector(start)
+            return PathCheck(*_native.check_joints(self._native, array_rows(joints), first, asked))
+        if mode is None:
+            raise _native.Error(f"say in which working mode the poses are taken: mode = one of {', '.join(self.modes)}")
+        rows, _ = self._poses(poses, None, None)
+        return PathCheck(*_native.check_poses(self._native, rows.tolist(), self._known(mode), asked))
+
+    def time(
+        self,
+        poses: ArrayLike,
+        *,
+        mode: str,
+        speed: float | Sequence[float],
+        acceleration: float | Sequence[float],
+        joined: str = "straight",
+        rate: float = 100.0,
+    ) -> Motion:
+        """Return the fastest motion through a path of poses (n, dof) under limits of joint speed and acceleration."""
+        return self.check_path(poses, mode=mode, joined=joined).time(speed, acceleration, rate=rate)
+
+    def plan(
+        self,
+        start: ArrayLike,
+        goal: ArrayLike,
+        *,
+        mode: str,
+        to_mode: str | None = None,
+        through_modes: bool = False,
+        weight: float = 1.0,
+        avoid: tuple[float, float] = (0.0, 0.0),
+        samples: int = _SAMPLES,
+        seconds: float | None = None,
+        depth: int | None = None,
+        progress: Progress = None,
+    ) -> Plan:
+        """Plan a motion between two poses (dof,): see :meth:`Analysis.plan`, which plans again without analysing anew.
+
+        The straight way is tried first. Robots with six coordinates are planned over a roadmap of ``samples`` poses, within a
+        mode; the aspects of others are found in boxes of the given ``depth`` (default: as fine as it takes, within reason).
+        """
+        ends = [_vector(start), _vector(goal)]
+        wanted = (float(weight), float(avoid[0]), float(avoid[1]))
+        through = through_modes or (to_mode is not None and to_mode != mode)
+        self._known(mode)
+        if self.platform == "free-body":
+            if through:
+                raise _native.Error("changes of working mode are not planned for free bodies")
+            effort = (samples, seconds)
+            found = _native.plan_over_roadmap(self._native, ends, mode, wanted, effort, reporter(progress))
+            return Plan(*found)
+        straight = None if through else self._native.straight(ends, mode, wanted)
+        if straight is not None:
+            return Plan(*straight)
+        return self._over_boxes(ends, mode, to_mode, through, wanted, seconds, depth, progress)
+
+    def _over_boxes(
+        self,
+        ends: list[list[float]],
+        mode: str,
+        to_mode: str | None,
+        through: bool,
+        wanted: tuple[float, float, float],
+        seconds: float | None,
+        depth: int | None,
+        progress: Progress,
+    ) -> Plan:
+        """Plan through aspects, over finer boxes where they may tell more."""
+        usual = _COARSE[self.dof]
+        for finer in range(_FINER + 1):
+            modes = [] if through or self.dof == 2 else [mode]
+            analysis = self.analyze(modes=modes, seconds=seconds, depth=depth or usual + finer, progress=progress)
+            try:
+                return analysis.plan(
+                    *ends, mode=mode, to_mode=to_mode, through_modes=through, weight=wanted[0], avoid=wanted[1:], progress=progress
+                )
+            except _native.NoPlan as refusal:
+                if depth is not None or finer == _FINER or not refusal.finer:
+                    raise
+        raise AssertionError("the last round returns or raises")
+
+    def assembly(
+        self, q: ArrayLike, *, samples: int = _SAMPLES, seconds: float | None = None, progress: Progress = None
+    ) -> AssemblyModes | JoinedSolutions:
+        """Return the direct solutions of a joint vector q (dof,), by aspect; of a free body, by what a roadmap joins."""
+        if self.platform == "free-body":
+            effort = (samples, seconds)
+            return JoinedSolutions(_native.join_solutions(self._native, _vector(q), effort, reporter(progress)))
+        modes = [] if self.dof == 2 else sorted({s.mode for s in self.fk(q)})
+        return self.analyze(modes=modes, seconds=seconds, depth=_COARSE[self.dof], progress=progress).assembly(q)
+
+    def to_mjcf(self, pose: ArrayLike, mode: str) -> str:
+        """Return the robot as a model for MuJoCo that starts at a pose in a working mode.
+
+        Warns of limits of passive joints, which the model lacks.
+        """
+        model, left_out = self._native.mjcf(_vector(pose), self._known(mode))
+        if left_out:
+            warnings.warn(f"the model lacks the limits of passive joints: {', '.join(left_out)}", stacklevel=2)
+        return model
+
+    # Input.
+
+    def _known(self, mode: str) -> str:
+        if mode not in self.modes:
+            raise _native.Error(f"`{mode}` is no working mode of `{self.name}`, which has {', '.join(self.modes)}")
+        return mode
+
+    def _held(self, fix: Mapping[str, float] | None, names: list[str], angles: list[bool]) -> list[tuple[int, float]]:
+        held = []
+        for name, value in (fix or {}).items():
+            if name not in names:
+                raise _native.Error(f"fix: `{name}` is none of {', '.join(names)}")
+            held.append((names.index(name), float(value)))
+            if angles[names.index(name)]:
+                _warn_of_degrees(name, float(value))
+        return held
+
+    def _poses(
+        self, pose: ArrayLike | None, xyzw: ArrayLike | None, wxyz: ArrayLike | None
+    ) -> tuple[Array, bool]:
+        """Poses as rows, and whether several were given."""
+        given = np.asarray(pose, dtype=float)
+        if xyzw is not None or wxyz is not None:
+            if self.platform != "free-body":
+                raise _native.Error(f"quaternions are for free bodies; the platform of `{self.name}` is `{self.platform}`")
+            turns = poses.rpy_from_rotation(poses.rotation_from_quaternion(xyzw=xyzw, wxyz=wxyz))
+            if given.shape != turns.shape:
+                raise _native.Error(f"positions {given.shape} and orientations {turns.shape}: give (3,) or (n, 3) of both")
+            given = np.concatenate([given, turns], axis=-1)
+        elif given.shape[-2:] == (4, 4) and given.ndim in (2, 3) and self.dof != 4:
+            given = poses.from_matrix(self.platform, given)
+        return self._rows(given, self.pose_names, [angle for _, angle in self._native.coordinates])
+
+    def _rows(self, values: ArrayLike, names: list[str], angles: list[bool]) -> tuple[Array, bool]:
+        """Numbers as rows, and whether several were given."""
+        given = np.asarray(values, dtype=float)
+        if given.ndim not in (1, 2) or given.shape[-1] != len(names):
+            raise _native.Error(
+                f"an array of shape {given.shape}: `{self.name}` has {len(names)} coordinates ({', '.join(names)}), give "
+                f"({len(names)},) or (n, {len(names)})"
+            )
+        rows = np.ascontiguousarray(np.atleast_2d(given))
+        for k in np.flatnonzero(angles):
+            if len(rows):
+                _warn_of_degrees(names[k], float(rows[np.abs(rows[:, k]).argmax(), k]))
+        return rows, given.ndim == 2
+
+
+def _vector(values: ArrayLike) -> list[float]:
+    return np.asarray(values, dtype=float).ravel().tolist()
+
+
+def _warn_of_degrees(name: str, angle: float) -> None:
+    if 2 * math.pi < abs(angle) < 1e7:
+        turns = abs(angle) / (2 * math.pi)
+        warnings.warn(
+            f"{name} = {angle:g} is taken in radians, {turns:.1f} full turns; if it is in degrees, convert it with numpy.radians",
+            UnitWarning,
+            stacklevel=5,
+        )
+
+
+def _plain(value: Any) -> Any:
+    """Data as TOML has it: arrays and tuples as lists, underscores in keys as hyphens, nothing that is None."""
+    if isinstance(value, Mapping):
+        return {re.sub("_", "-", key): _plain(item) for key, item in value.items() if item is not None}
+    if isinstance(value, np.ndarray | tuple | list):
+        return [_plain(item) for item in value]
+    return value.item() if isinstance(value, np.generic) else value

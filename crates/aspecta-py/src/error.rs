@@ -1,0 +1,44 @@
+//! Errors as Python raises them: the library's own words.
+
+use aspecta::motion::modes::NoRoute;
+use aspecta::motion::plan::Refusal;
+use pyo3::PyErr;
+use pyo3::create_exception;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use serde::Serialize;
+
+create_exception!(
+    aspecta,
+    Error,
+    PyValueError,
+    "Input that makes no sense for the robot, or a question it cannot be asked."
+);
+create_exception!(aspecta, NoPlan, Error, "There is no motion, or none was found: `proved` tells which.");
+
+/// An error of the libraries.
+pub fn of(error: impl Into<aspecta::Error>) -> PyErr {
+    Error::new_err(error.into().to_string())
+}
+
+/// The refusal to plan: `proved` where there is no motion at all, `finer` where finer boxes may find one.
+pub fn no_plan(py: Python<'_>, refusal: &NoRoute) -> PyErr {
+    if refusal.is_bad_input() {
+        return Error::new_err(refusal.to_string());
+    }
+    let error = NoPlan::new_err(refusal.to_string());
+    let finer = matches!(
+        refusal,
+        NoRoute::Unknown(_) | NoRoute::NotFound { .. } | NoRoute::Plan(Refusal::NotFound { .. })
+    );
+    let marked = error
+        .value(py)
+        .setattr("proved", refusal.is_proof())
+        .and_then(|()| error.value(py).setattr("finer", finer));
+    marked.map_or_else(|other| other, |()| error)
+}
+
+/// A value as JSON.
+pub fn json(value: &impl Serialize) -> PyResult<String> {
+    serde_json::to_string(value).map_err(of)
+}

@@ -1,0 +1,243 @@
+//! Robots and what is asked of single configurations.
+
+use crate::analysis::Analysis;
+use crate::batch::Columns;
+use crate::error;
+use crate::threads;
+use crate::watch::watched;
+use aspecta::kinematics::{DirectSolutions, KinematicsError};
+use aspecta::paving::Budget;
+use aspecta::robot::work;
+use aspecta::{Kinematics, Options, Solution, WorkingMode};
+use numpy::PyReadonlyArray2;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::sync::Arc;
+
+/// Rows that one thread solves before it looks for more.
+const CHUNK: usize = 256;
+
+/// A robot and the text it was read from.
+#[pyclass(frozen, module = "aspecta._native")]
+#[derive(Clone)]
+pub struct Robot {
+    pub robot: Arc<aspecta::Robot>,
+    #[pyo3(get)]
+    text: String,
+}
+
+#[pymethods]
+impl Robot {
+    /// The robot that a text describes; `file` is its name in messages.
+    #[staticmethod]
+    fn from_toml(text: String, file: &str) -> PyResult<Self> {
+        let robot = Arc::new(aspecta::Robot::from_toml(&text, file).map_err(error::of)?);
+        Ok(Self { robot, text })
+    }
+
+    /// The robot of the catalogue, or of a file.
+    #[staticmethod]
+    fn resolve(name_or_path: &str) -> PyResult<Self> {
+        let robot = aspecta::Robot::resolve(name_or_path).map_err(error::of)?;
+        let entry = aspecta::catalogue::all().iter().find(|entry| entry.name == name_or_path);
+        let text = match entry {
+            Some(entry) => entry.text.to_owned(),
+            None => std::fs::read_to_string(name_or_path)?,
+        };
+        Ok(Self { robot: Arc::new(robot), text })
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.robot.name
+    }
+
+    #[getter]
+    fn title(&self) -> &str {
+        &self.robot.title
+    }
+
+    #[getter]
+    fn length_unit(&self) -> &str {
+        &self.robot.length_unit
+    }
+
+    #[getter]
+    fn platform(&self) -> String {
+        self.robot.platform.to_string()
+    }
+
+    #[getter]
+    fn dof(&self) -> usize {
+        self.robot.dof()
+    }
+
+    /// Names of the pose coordinates, and whether they are angles.
+    #[getter]
+    fn coordinates(&self) -> Vec<(&'static str, bool)> {
+        self.robot.platform.coordinates().iter().map(|c| (c.name, c.angle)).collect()
+    }
+
+    /// Whether each joint coordinate is an angle.
+    #[getter]
+    fn joint_angles(&self) -> Vec<bool> {
+        self.robot.legs.iter().map(|leg| leg.actuator.is_angle()).collect()
+    }
+
+    #[getter]
+    fn modes(&self) -> Vec<String> {
+        self.robot.working_modes().iter().map(ToString::to_string).collect()
+    }
+
+    /// The robot as it was understood, as JSON.
+    fn json(&self) -> PyResult<String> {
+        error::json(&*self.robot)
+    }
+
+    /// The warning of lengths in several units, if there is reason for one.
+    fn mixed_units(&self) -> Option<(String, f64, String, f64)> {
+        let mixed = self.robot.mixed_units()?;
+        Some((mixed.small.0.to_string(), mixed.small.1, mixed.large.0.to_string(), mixed.large.1))
+    }
+
+    fn __eq__(&self, other: &Self) -> bool {
+        self.robot == other.robot
+    }
+
+    /// All inverse solutions of each row.
+    fn inverse<'py>(
+        &self,
+        py: Python<'py>,
+        poses: PyReadonlyArray2<'py, f64>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        self.solve(py, &poses, |robot, pose| Ok((robot.inverse(pose)?, true)))
+    }
+
+    /// All direct solutions of each row.
+    fn direct<'py>(
+        &self,
+        py: Python<'py>,
+        joints: PyReadonlyArray2<'py, f64>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        self.solve(py, &joints, |robot, q| {
+            robot.direct_certified(q).map(|DirectSolutions { solutions, complete }| (solutions, complete))
+        })
+    }
+
+    /// The state of a configuration, as JSON.
+    fn state(&self, pose: Vec<f64>, q: Vec<f64>) -> PyResult<String> {
+        error::json(&self.robot.state(&pose, &q).map_err(error::of)?)
+    }
+
+    /// The analysis of the robot or of a slice, and the exception that ended it early.
+    #[pyo3(signature = (fix, modes, seconds, boxes, depth, resolution, certificate, progress))]
+    #[expect(clippy::too_many_arguments, reason = "the keywords of Python's `analyze`, which calls it")]
+    fn analyze(
+        &self,
+        py: Python<'_>,
+        fix: Vec<(usize, f64)>,
+        modes: Vec<String>,
+        seconds: Option<f64>,
+        boxes: Option<u64>,
+        depth: Option<u32>,
+        resolution: Option<f64>,
+        certificate: bool,
+        progress: Option<Bound<'_, PyAny>>,
+    ) -> PyResult<(Option<Analysis>, Option<PyErr>)> {
+        let modes = modes.iter().map(|mode| self.mode(mode)).collect::<PyResult<Vec<_>>>()?;
+        let options =
+            Options { budget: Budget { seconds, boxes, depth, resolution }, fix, modes, certificate };
+        let robot = Arc::clone(&self.robot);
+        let found =
+            watched(py, progress.as_ref(), move |control| aspecta::analyze(&robot, &options, control))?;
+        let analysis = found.result.transpose().map_err(error::of)?;
+        Ok((analysis.map(Analysis::from), found.interrupted))
+    }
+
+    /// The path that goes straight from pose to pose, or nearly, as [`Analysis::plan`](crate::analysis) returns
+    /// it; `None` if it takes more to tell.
+    fn straight(
+        &self,
+        py: Python<'_>,
+        ends: [Vec<f64>; 2],
+        mode: &str,
+        wanted: crate::analysis::Wanted,
+    ) -> PyResult<Option<crate::analysis::Planned>> {
+        let mode = self.mode(mode)?;
+        let Ok(window) = self.robot.slice(&[]) else { return Ok(None) };
+        let options = crate::analysis::plan_options(wanted);
+        let plan = py
+            .detach(|| {
+                threads::on_all(|| {
+                    aspecta::Planner::straight(&self.robot, &window, [&ends[0], &ends[1]], mode, &options)
+                })
+            })
+            .map_err(|refusal| error::no_plan(py, &refusal.into()))?;
+        plan.map(|plan| crate::analysis::planned(&plan.into())).transpose()
+    }
+
+    /// The robot as a model for MuJoCo that starts in this configuration, and the names of limits it lacks.
+    fn mjcf(&self, pose: Vec<f64>, mode: &str) -> PyResult<(String, Vec<String>)> {
+        let mode = self.mode(mode)?;
+        let solutions = self.robot.inverse(&pose).map_err(error::of)?;
+        let start = solutions.iter().find(|s| s.mode == mode);
+        let start =
+            start.ok_or_else(|| error::Error::new_err(format!("no inverse solution in mode {mode}")))?;
+        let left_out = aspecta_view::mjcf::left_out(&self.robot);
+        let left_out = left_out.iter().map(ToString::to_string).collect();
+        Ok((aspecta_view::mjcf::model(&self.robot, start), left_out))
+    }
+}
+
+impl Robot {
+    /// A working mode by its signs.
+    pub fn mode(&self, signs: &str) -> PyResult<WorkingMode> {
+        let mode: WorkingMode = signs.parse().map_err(error::of)?;
+        if mode.legs() != self.robot.dof() {
+            let (name, dof) = (&self.robot.name, self.robot.dof());
+            return Err(error::Error::new_err(format!(
+                "`{signs}`: a working mode of `{name}` has {dof} signs"
+            )));
+        }
+        Ok(mode)
+    }
+
+    /// Solves every row of an array, on all threads.
+    fn solve<'py>(
+        &self,
+        py: Python<'py>,
+        rows: &PyReadonlyArray2<'py, f64>,
+        solve: impl Fn(&aspecta::Robot, &[f64]) -> Result<(Vec<Solution>, bool), KinematicsError> + Sync,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let dof = self.robot.dof();
+        let (count, width) = (rows.as_array().nrows(), rows.as_array().ncols());
+        let values = rows.as_slice()?;
+        let robot = &*self.robot;
+        let chunk = |k: usize| {
+            let mut columns = Columns::default();
+            for row in k * CHUNK..count.min((k + 1) * CHUNK) {
+                let given = &values[row * width..(row + 1) * width];
+                let (solutions, complete) = solve(robot, given).map_err(|error| (row, error))?;
+                columns.push(row, dof, &solutions, complete);
+            }
+            Ok(columns)
+        };
+        let columns = py.detach(|| {
+            let mut all = Columns::default();
+            let parts = match count.div_ceil(CHUNK) {
+                // No other thread need be woken up.
+                1 => vec![chunk(0)],
+                parts => threads::on_all(|| work::map_range(parts, chunk)),
+            };
+            for part in parts {
+                all.append(part?);
+            }
+            Ok(all)
+        });
+        let in_row = |(row, e): (usize, KinematicsError)| match count {
+            1 => error::of(e),
+            _ => error::Error::new_err(format!("row {row}: {e}")),
+        };
+        columns.map_err(in_row)?.into_arrays(py, dof)
+    }
+}

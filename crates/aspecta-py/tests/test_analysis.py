@@ -1,0 +1,163 @@
+"""Analyses: counts, aspects, plans, maps, certificates; pictures."""
+
+import json
+import pickle
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import answer, command
+
+import aspecta
+
+matplotlib = pytest.importorskip("matplotlib")
+matplotlib.use("Agg")
+
+
+def test_table_2(analysis: aspecta.Analysis) -> None:
+    assert (analysis.low, analysis.high, analysis.exact) == (10, 10, True)
+    assert [a.id for a in analysis.aspects] == list(range(1, 11))
+    assert "exactly 10" in str(analysis) and "exactly 10" in analysis._repr_html_()
+    assert [m["mode"] for m in analysis.working_modes] == ["++", "+-", "--", "-+"]
+    assert "deg" in analysis.summary(degrees=True)
+
+
+def test_an_analysis_is_that_of_the_command_line(analysis: aspecta.Analysis) -> None:
+    mine, theirs = analysis.to_dict(), answer("analyze", "five-bar")
+    for result in (mine, theirs):
+        del result["run"]["seconds"]
+    assert mine == theirs
+
+
+def test_slices_modes_and_budgets() -> None:
+    robot = aspecta.Robot("3-rrr")
+    found = robot.analyze(fix={"phi": 0.0}, modes=["+++", "++-"], depth=6)
+    told = answer("analyze", "3-rrr", "--fix", "phi=0", "--mode", "+++,++-", "--budget", "depth=6")
+    assert found.classes == told["classes"] and (found.low, found.high) == (told["aspects"]["low"], told["aspects"]["high"])
+    with pytest.raises(aspecta.Error, match="`psi` is none of x, y, phi"):
+        robot.analyze(fix={"psi": 0})
+    with pytest.raises(aspecta.Error, match="up to 3 free coordinates"):
+        aspecta.Robot("hexa").analyze()
+
+
+def test_aspects_at_a_pose(analysis: aspecta.Analysis) -> None:
+    assert [(a.id, a.mode, a.det_a) for a in analysis.at([4, 7])] == [(1, "++", "+"), (3, "+-", "+"), (6, "--", "+"), (10, "-+", "-")]
+    assert [a.id for a in analysis.at([4, 7], mode="--")] == [6]
+    assert analysis.at([40, 7]) == []
+
+
+def test_a_pickled_analysis_holds_its_answers(analysis: aspecta.Analysis) -> None:
+    again = pickle.loads(pickle.dumps(analysis))
+    assert again.aspects == analysis.aspects and str(again) == str(analysis) and again.robot == analysis.robot
+    with pytest.raises(aspecta.Error, match="analyse the robot again"):
+        again.at([4, 7])
+
+
+def test_progress_is_told() -> None:
+    told: list[tuple[str, int, int]] = []
+    aspecta.Robot("3-rrr").analyze(fix={"phi": 0}, progress=lambda *now: told.append(now))
+    assert told and all(isinstance(stage, str) and done <= total for stage, done, total in told)
+
+    def stop(*_: object) -> None:
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        aspecta.Robot("3-rrr").analyze(progress=stop)
+
+
+def test_certificates_are_verified_by_both(analysis: aspecta.Analysis, tmp_path: Path) -> None:
+    assert analysis.certificate is None
+    certificate = analysis.robot.analyze(modes="++", certificate=True).certificate
+    assert certificate is not None
+    path = tmp_path / "five-bar.json"
+    certificate.save(path)
+    verdict = aspecta.verify(path)
+    assert verdict and verdict.verified and "exactly 2" in str(verdict)
+    assert command("verify", str(path)).returncode == 0
+    # One aspect more than there are.
+    planted = certificate.to_dict()
+    planted["claims"][0]["low"] += 1
+    planted["claims"][0]["high"] += 1
+    assert not aspecta.Certificate(json.dumps(planted)).verify()
+    with pytest.raises(aspecta.Error):
+        aspecta.Certificate("{}").verify()
+
+
+def test_plans_are_proved_and_refusals_say_why(analysis: aspecta.Analysis, five_bar: aspecta.Robot) -> None:
+    for plan in (analysis.plan([4, 7], [5, 6], mode="++"), five_bar.plan([4, 7], [5, 6], mode="++")):
+        assert plan.proved and np.array_equal(plan.waypoints[0], [4, 7]) and np.isclose(plan.length, np.sqrt(2))
+        motion = plan.time(speed=2, acceleration=[10, 10])
+        assert np.allclose(motion.pose[-1], [5, 6]) and np.abs(motion.velocity).max() <= 2 + 1e-9
+        assert len(motion.to_pandas()) == len(motion.time) and pickle.loads(pickle.dumps(plan)) == plan
+    through = five_bar.plan([4, 7], [4, 7], mode="++", to_mode="--")
+    assert through.proved and len(through.crossings) == len(through.stretches) - 1 > 0
+    with pytest.raises(aspecta.NoPlan) as refusal:
+        # Both in mode +-, one in each of two aspects that the mode has where det A < 0.
+        a, b = (x.pose for x in analysis.aspects if x.id in (4, 5))
+        analysis.plan(a, b, mode="+-")
+    assert refusal.value.proved
+    with pytest.raises(aspecta.Error, match="working mode"):
+        five_bar.plan([4, 7], [5, 6], mode="+++")
+
+
+def test_a_plan_of_a_free_body() -> None:
+    robot = aspecta.Robot("gough-stewart")
+    plan = robot.plan([0.2, 0.1, 0.9, 0.5, 1.4, 0.2], [0.25, 0.05, 0.85, 0.45, 1.3, 0.25], mode="------")
+    assert plan.proved and robot.check_path(plan.waypoints, mode="------").sound
+
+
+def test_modes_traverse_and_assembly_are_those_of_the_command_line(analysis: aspecta.Analysis, five_bar: aspecta.Robot) -> None:
+    graph = analysis.modes()
+    assert len(graph.crossings) == 12 and graph._repr_svg_().startswith("<svg")
+    held = analysis.traverse(box=[[2, 6], [8, 10]])
+    told = answer("traverse", "five-bar", "--box", "2:6,8:10")
+    assert held.holds is True and held.classes == told["classes"]
+    assert analysis.traverse(disc=[(4, 4), (9, 9)], radius=1).holds is True
+    assert analysis.traverse(poses=[[4, 7], [40, 7]]).holds is False
+    assert analysis.traverse(paths=[[[4, 7], [5, 6]]]).holds is True
+    for wrong in ({}, {"box": [[1, 2]]}, {"disc": [(4, 4), (9, 9)]}, {"ball": [(0, 0), (0, 0)], "radius": 1}):
+        with pytest.raises(aspecta.Error):
+            analysis.traverse(**wrong)  # type: ignore[arg-type]
+    q = five_bar.ik([4, 7])[0].q
+    assert [s["aspect"] for s in analysis.assembly(q).solutions] == [10, 1]
+    assert len(aspecta.Robot("3-rpr").assembly([14.98, 15.38, 12], seconds=20).solutions) == 6
+
+
+def test_maps_locate_and_pickle(analysis: aspecta.Analysis, tmp_path: Path) -> None:
+    found = analysis.domains([1, 3], cells=60, samples=2000)
+    assert found.aspects == [1, 3] and found.robot == "five-bar"
+    path = tmp_path / "five-bar.aspecta"
+    found.save(path)
+    for each in (found, aspecta.Map.load(path), pickle.loads(pickle.dumps(found))):
+        here, nowhere = each.locate([[4, 7], [40, 7]], "++")
+        assert (here.aspect, here.region, here.domains) == (1, 1, (1,)) and nowhere.nowhere == "leg 1 does not reach"
+        assert each.locate([4, 7], "++") == here
+    assert "uniqueness" in found.domains(1).to_dict() and "Basic regions" in str(found.domains(1))
+    with pytest.raises(KeyError):
+        found.domains(2)
+    with pytest.raises(aspecta.Error, match="no aspect 11"):
+        analysis.domains(11)
+    (tmp_path / "none.aspecta").write_bytes(b"none")
+    with pytest.raises(aspecta.Error):
+        aspecta.Map.load(tmp_path / "none.aspecta")
+
+
+def test_cusps_and_exploration() -> None:
+    cusps = aspecta.Robot("3-rpr").cusps(fix={"q1": 14.98})
+    told = answer("cusps", "3-rpr", "--fix", "q1=14.98")
+    assert cusps.to_dict()["cusps"] == told["cusps"] and cusps.complete
+    explored = aspecta.Robot("gough-stewart").explore(samples=50)
+    assert explored.to_dict() == {k: v for k, v in answer("explore", "gough-stewart", "--samples", "50").items() if k != "format_version"}
+
+
+def test_pictures_and_reports(analysis: aspecta.Analysis, tmp_path: Path) -> None:
+    ax = analysis.plot(mode="+-")
+    assert len(ax.collections) >= 3 and ax.get_xlabel() == "x"
+    assert analysis.plot(space="joint").get_xlabel() == "q1"
+    body = aspecta.Robot("3-rpr").analyze(depth=4)
+    with pytest.raises(aspecta.Error, match="cut at one"):
+        body.plot()
+    assert body.plot(at={"phi": 0.1}).get_ylabel() == "y"
+    assert aspecta.Robot("3-rrr").analyze(fix={"phi": 0, "y": 0}, depth=8).plot().get_xlabel() == "x"
+    report = analysis.report(tmp_path / "report")
+    assert report.name == "report.html" and "<svg" in report.read_text()

@@ -1,0 +1,109 @@
+"""Robots: made, compared, passed on; poses in their several forms."""
+
+import copy
+import pickle
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import CATALOGUE, command
+
+import aspecta
+from aspecta import poses
+
+LEG = {"actuator": {"kind": "revolute", "crank": 8, "rod": 5}}
+
+
+@pytest.mark.parametrize("name", CATALOGUE)
+def test_a_robot_survives_its_text_a_pickle_and_a_copy(name: str) -> None:
+    robot = aspecta.Robot(name)
+    for other in (aspecta.Robot.from_toml(robot.to_toml()), pickle.loads(pickle.dumps(robot)), copy.deepcopy(robot)):
+        assert other == robot and hash(other) == hash(robot) and other.name == name
+    assert len(robot.pose_names) == len(robot.joint_names) == robot.dof
+    assert robot.to_dict()["name"] == name and name in repr(robot) and name in robot._repr_html_()
+
+
+def test_a_robot_is_built_from_its_legs(tmp_path: Path) -> None:
+    legs = [{"anchor": np.array([0.0, 0.0]), **LEG}, {"anchor": (9, 0), **LEG}]
+    robot = aspecta.Robot(platform="plane-point", legs=legs, name="mine", length_unit="mm", window={"y": [0, 20]})
+    assert (robot.platform, robot.length_unit, robot.title) == ("plane-point", "mm", "")
+    path = tmp_path / "mine.toml"
+    path.write_text(robot.to_toml())
+    assert aspecta.Robot.from_file(path) == robot == aspecta.Robot(str(path))
+    assert robot != aspecta.Robot("five-bar")
+
+
+def test_mistakes_name_the_file_the_key_and_the_value() -> None:
+    with pytest.raises(aspecta.Error, match="did you mean `five-bar`"):
+        aspecta.Robot("five-baar")
+    with pytest.raises(ValueError, match=r"mine:[0-9]+.*plane-pint"):
+        aspecta.Robot(platform="plane-pint", legs=[], name="mine")
+    with pytest.raises(aspecta.Error, match="give the name of a robot"):
+        aspecta.Robot()
+
+
+def test_an_array_that_does_not_fit_is_refused(five_bar: aspecta.Robot) -> None:
+    with pytest.raises(aspecta.Error, match=r"shape \(3,\).*\(x, y\)"):
+        five_bar.ik([1, 2, 3])
+    with pytest.raises(aspecta.Error, match="row 1: pose coordinate 2 is NaN"):
+        five_bar.ik([[4, 7], [4, np.nan]])
+    with pytest.raises(aspecta.Error, match="no working mode"):
+        five_bar.ik([4, 7], mode="+++")
+    assert len(five_bar.ik(np.empty((0, 2)))) == 0
+
+
+def test_degrees_taken_for_radians_are_warned_of() -> None:
+    with pytest.warns(aspecta.UnitWarning, match=r"phi = 30 is taken in radians"):
+        aspecta.Robot("3-rrr").ik([-9, 0, 30])
+
+
+def test_lengths_in_two_units_are_warned_of() -> None:
+    large = {"actuator": {"kind": "revolute", "crank": 8000, "rod": 7995}}
+    legs = [{"anchor": [0, 0], **large}, {"anchor": [9, 0], **LEG}]
+    with pytest.warns(aspecta.UnitWarning, match="one unit"):
+        aspecta.Robot(platform="plane-point", legs=legs)
+
+
+def test_matrices_and_quaternions_mean_the_same_pose() -> None:
+    robot = aspecta.Robot("gough-stewart")
+    pose = np.array([[0.2, 0.1, 0.9, 0.5, 1.4, 0.2], [0.1, 0.0, 1.0, -0.3, 0.2, 2.0]])
+    matrices = robot.matrix(pose)
+    expected = robot.ik(pose)
+    assert np.allclose(robot.ik(matrices).q, expected.q)
+    assert np.allclose(robot.ik(matrices[0])[0].q, expected[0][0].q)
+    # Half-angle formulas, with no use of matrices.
+    (cr, cp, cy), (sr, sp, sy) = np.cos(pose[:, 3:].T / 2), np.sin(pose[:, 3:].T / 2)
+    wxyz = np.stack([
+        cr * cp * cy + sr * sp * sy,
+        sr * cp * cy - cr * sp * sy,
+        cr * sp * cy + sr * cp * sy,
+        cr * cp * sy - sr * sp * cy,
+    ], axis=-1)  # fmt: skip
+    assert np.allclose(robot.ik(pose[:, :3], quaternion_wxyz=3 * wxyz).q, expected.q)
+    assert np.allclose(robot.ik(pose[:, :3], quaternion_xyzw=np.roll(wxyz, -1, axis=1)).q, expected.q)
+    assert np.allclose(poses.from_matrix("free-body", matrices), pose)
+
+
+def test_motions_that_a_platform_cannot_make_are_refused() -> None:
+    turn = poses.to_matrix("free-body", [0, 0, 0, 0, 0, 1])
+    with pytest.raises(aspecta.Error, match="does not turn"):
+        aspecta.Robot("delta").ik(turn)
+    with pytest.raises(aspecta.Error, match="does not move away"):
+        aspecta.Robot("spherical-3-rrr").ik(poses.to_matrix("translating-body", [1, 0, 0]))
+    with pytest.raises(aspecta.Error, match="not a rotation"):
+        aspecta.Robot("hexa").ik(np.diag([1, 1, -1, 1]))
+    with pytest.raises(aspecta.Error, match="zero"):
+        aspecta.Robot("hexa").ik([0, 0, -700], quaternion_wxyz=[0, 0, 0, 0])
+    level = aspecta.Robot("delta").ik(poses.to_matrix("translating-body", [0, 0, -900]))
+    assert np.array_equal(level[0].q, aspecta.Robot("delta").ik([0, 0, -900])[0].q)
+
+
+def test_a_pitch_of_a_right_angle_gives_a_rotation_back() -> None:
+    rotation = poses.rotation_from_rpy([0.3, np.pi / 2, 0.8])
+    assert np.allclose(poses.rotation_from_rpy(poses.rpy_from_rotation(rotation)), rotation)
+
+
+def test_the_command_comes_with_the_package() -> None:
+    assert command("--version").stdout == f"aspecta {aspecta.__version__}\n"
+    refused = command("ik", "five-bar", "--pose", "1,2,3")
+    assert refused.returncode == 2 and "not 3" in refused.stderr
