@@ -83,7 +83,7 @@ impl Analysis {
 
     /// Writes the report into a directory; returns the paths written.
     fn report(&self, py: Python<'_>, directory: PathBuf) -> PyResult<Vec<PathBuf>> {
-        Ok(py.detach(|| threads::on_all(|| aspecta_view::write_report(&self.0, &directory)))?)
+        Ok(threads::detached(py, || aspecta_view::write_report(&self.0, &directory))?)
     }
 
     /// The map of some aspects, and the exception that ended its making early.

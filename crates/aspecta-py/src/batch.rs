@@ -1,9 +1,21 @@
-//! Many solutions as arrays, a solution a row.
+//! Solutions as Python has them: one by one, or many as arrays, a solution a row.
 
 use aspecta::Solution;
-use numpy::{PyArray1, PyArrayMethods, ToPyArray};
+use aspecta::robot::work;
+use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyTuple};
+
+/// The parts of a solution: pose, q, mode, det A, residual, certified, within limits, serial legs.
+pub type Parts<'py> =
+    (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, String, f64, f64, bool, bool, Bound<'py, PyTuple>);
+
+/// The parts of one solution.
+pub fn parts<'py>(py: Python<'py>, s: &Solution) -> PyResult<Parts<'py>> {
+    let serial = PyTuple::new(py, s.serial_legs.iter().map(|leg| leg.number()))?;
+    let (pose, q) = (PyArray1::from_slice(py, &s.pose), PyArray1::from_slice(py, &s.q));
+    Ok((pose, q, s.mode.to_string(), s.det_a, s.residual, s.certified, s.within_limits, serial))
+}
 
 /// Columns of solutions.
 #[derive(Default)]
@@ -40,18 +52,31 @@ impl Columns {
         self.complete.push(complete);
     }
 
-    /// Adds the columns of later rows.
-    pub fn append(&mut self, mut later: Self) {
-        self.row.append(&mut later.row);
-        self.pose.append(&mut later.pose);
-        self.q.append(&mut later.q);
-        self.signs.append(&mut later.signs);
-        self.det_a.append(&mut later.det_a);
-        self.residual.append(&mut later.residual);
-        self.certified.append(&mut later.certified);
-        self.within_limits.append(&mut later.within_limits);
-        self.serial.append(&mut later.serial);
-        self.complete.append(&mut later.complete);
+    /// The columns of one part of the rows after the other.
+    pub fn joined(parts: Vec<Self>) -> Self {
+        fn one<T: Copy + Send + Sync>(parts: &[Columns], column: fn(&Columns) -> &Vec<T>) -> Vec<T> {
+            let columns: Vec<&[T]> = parts.iter().map(|part| &column(part)[..]).collect();
+            columns.concat()
+        }
+        let parts = &parts[..];
+        let (row, det_a, residual) =
+            (one(parts, |p| &p.row), one(parts, |p| &p.det_a), one(parts, |p| &p.residual));
+        let ((pose, signs), (q, serial)) = work::join(
+            || (one(parts, |p| &p.pose), one(parts, |p| &p.signs)),
+            || (one(parts, |p| &p.q), one(parts, |p| &p.serial)),
+        );
+        Self {
+            row,
+            pose,
+            q,
+            signs,
+            det_a,
+            residual,
+            serial,
+            certified: one(parts, |p| &p.certified),
+            within_limits: one(parts, |p| &p.within_limits),
+            complete: one(parts, |p| &p.complete),
+        }
     }
 
     /// Arrays by name.
@@ -64,10 +89,10 @@ impl Columns {
         arrays.set_item("signs", PyArray1::from_vec(py, self.signs).reshape(shape)?)?;
         arrays.set_item("det_a", PyArray1::from_vec(py, self.det_a))?;
         arrays.set_item("residual", PyArray1::from_vec(py, self.residual))?;
-        arrays.set_item("certified", self.certified.to_pyarray(py))?;
-        arrays.set_item("within_limits", self.within_limits.to_pyarray(py))?;
+        arrays.set_item("certified", PyArray1::from_vec(py, self.certified))?;
+        arrays.set_item("within_limits", PyArray1::from_vec(py, self.within_limits))?;
         arrays.set_item("serial", PyArray1::from_vec(py, self.serial).reshape(shape)?)?;
-        arrays.set_item("complete", self.complete.to_pyarray(py))?;
+        arrays.set_item("complete", PyArray1::from_vec(py, self.complete))?;
         Ok(arrays)
     }
 }

@@ -29,16 +29,16 @@ type Location = (i8, usize, usize, Vec<usize>, Option<String>);
 impl Map {
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        Ok(py.detach(|| aspecta::Map::load(&path)).map_err(error::of)?.into())
+        Ok(threads::detached(py, || aspecta::Map::load(&path)).map_err(error::of)?.into())
     }
 
     #[staticmethod]
     fn from_bytes(py: Python<'_>, file: &[u8]) -> PyResult<Self> {
-        Ok(py.detach(|| aspecta::Map::from_bytes(file)).map_err(error::of)?.into())
+        Ok(threads::detached(py, || aspecta::Map::from_bytes(file)).map_err(error::of)?.into())
     }
 
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        Ok(PyBytes::new(py, &py.detach(|| self.0.to_bytes()).map_err(error::of)?))
+        Ok(PyBytes::new(py, &threads::detached(py, || self.0.to_bytes()).map_err(error::of)?))
     }
 
     /// The name of its robot, and the robot as JSON.
@@ -75,7 +75,7 @@ impl Map {
         let (count, width) = (poses.as_array().nrows(), poses.as_array().ncols());
         let values = poses.as_slice()?;
         let row = |k: usize| self.location(&values[k * width..(k + 1) * width], mode);
-        Ok(py.detach(|| threads::on_all(|| work::map_range(count, row))))
+        Ok(threads::detached(py, || work::map_range(count, row)))
     }
 }
 

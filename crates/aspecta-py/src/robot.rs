@@ -1,7 +1,7 @@
 //! Robots and what is asked of single configurations.
 
 use crate::analysis::Analysis;
-use crate::batch::Columns;
+use crate::batch::{Columns, Parts, parts};
 use crate::error;
 use crate::threads;
 use crate::watch::watched;
@@ -9,7 +9,7 @@ use aspecta::kinematics::{DirectSolutions, KinematicsError};
 use aspecta::paving::Budget;
 use aspecta::robot::work;
 use aspecta::{Kinematics, Options, Solution, WorkingMode};
-use numpy::PyReadonlyArray2;
+use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::sync::Arc;
@@ -104,6 +104,30 @@ impl Robot {
         self.robot == other.robot
     }
 
+    /// All inverse solutions of one pose.
+    fn inverse_one<'py>(
+        &self,
+        py: Python<'py>,
+        pose: PyReadonlyArray1<'py, f64>,
+    ) -> PyResult<Vec<Parts<'py>>> {
+        let found = self.robot.inverse(pose.as_slice()?).map_err(error::of)?;
+        found.iter().map(|solution| parts(py, solution)).collect()
+    }
+
+    /// All direct solutions of one joint vector, and whether they are proved to be all.
+    fn direct_one<'py>(
+        &self,
+        py: Python<'py>,
+        q: PyReadonlyArray1<'py, f64>,
+    ) -> PyResult<(Vec<Parts<'py>>, bool)> {
+        let q = q.as_slice()?;
+        let found = py.detach(|| self.robot.direct_certified(q)).map_err(error::of)?;
+        Ok((
+            found.solutions.iter().map(|solution| parts(py, solution)).collect::<PyResult<_>>()?,
+            found.complete,
+        ))
+    }
+
     /// All inverse solutions of each row.
     fn inverse<'py>(
         &self,
@@ -166,13 +190,9 @@ impl Robot {
         let mode = self.mode(mode)?;
         let Ok(window) = self.robot.slice(&[]) else { return Ok(None) };
         let options = crate::analysis::plan_options(wanted);
-        let plan = py
-            .detach(|| {
-                threads::on_all(|| {
-                    aspecta::Planner::straight(&self.robot, &window, [&ends[0], &ends[1]], mode, &options)
-                })
-            })
-            .map_err(|refusal| error::no_plan(py, &refusal.into()))?;
+        let straight =
+            || aspecta::Planner::straight(&self.robot, &window, [&ends[0], &ends[1]], mode, &options);
+        let plan = threads::detached(py, straight).map_err(|refusal| error::no_plan(py, &refusal.into()))?;
         plan.map(|plan| crate::analysis::planned(&plan.into())).transpose()
     }
 
@@ -222,22 +242,11 @@ impl Robot {
             }
             Ok(columns)
         };
-        let columns = py.detach(|| {
-            let mut all = Columns::default();
-            let parts = match count.div_ceil(CHUNK) {
-                // No other thread need be woken up.
-                1 => vec![chunk(0)],
-                parts => threads::on_all(|| work::map_range(parts, chunk)),
-            };
-            for part in parts {
-                all.append(part?);
-            }
-            Ok(all)
+        let columns = threads::detached(py, || {
+            let parts = work::map_range(count.div_ceil(CHUNK), chunk);
+            Ok(Columns::joined(parts.into_iter().collect::<Result<_, _>>()?))
         });
-        let in_row = |(row, e): (usize, KinematicsError)| match count {
-            1 => error::of(e),
-            _ => error::Error::new_err(format!("row {row}: {e}")),
-        };
+        let in_row = |(row, e): (usize, KinematicsError)| error::Error::new_err(format!("row {row}: {e}"));
         columns.map_err(in_row)?.into_arrays(py, dof)
     }
 }

@@ -3,6 +3,7 @@
 //! A process that was forked has its parent's memory, but none of its threads: work given to the parent's pool would never
 //! be done. Python forks (`multiprocessing` on Linux), so the pool is asked for by the process that uses it.
 
+use pyo3::Python;
 use rayon::ThreadPool;
 use std::mem;
 use std::process;
@@ -32,4 +33,9 @@ pub fn on_all<R: Send>(work: impl FnOnce() -> R + Send) -> R {
         Some(pool) => pool.install(work),
         None => work(),
     }
+}
+
+/// Does such work with no lock on the interpreter.
+pub fn detached<R: Send>(py: Python<'_>, work: impl FnOnce() -> R + Send) -> R {
+    py.detach(|| on_all(work))
 }

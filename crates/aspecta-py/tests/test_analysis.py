@@ -153,7 +153,8 @@ def test_cusps_and_exploration() -> None:
 def test_pictures_and_reports(analysis: aspecta.Analysis, tmp_path: Path) -> None:
     ax = analysis.plot(mode="+-")
     assert len(ax.collections) >= 3 and ax.get_xlabel() == "x"
-    assert analysis.plot(space="joint").get_xlabel() == "q1"
+    ax = analysis.plot(mode="++", space="joint")
+    assert ax.get_xlabel() == "q1" and [len(c.get_paths()) > 1000 for c in ax.collections] == [True, True]
     body = aspecta.Robot("3-rpr").analyze(depth=4)
     with pytest.raises(aspecta.Error, match="cut at one"):
         body.plot()

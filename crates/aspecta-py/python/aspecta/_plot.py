@@ -17,8 +17,10 @@ if TYPE_CHECKING:
 
 #: Undecided cells.
 _GREY = "0.8"
-#: Cells whose images are drawn in joint space, at most.
-_MOST_IMAGES = 20_000
+#: Squares across an aspect whose images are drawn in joint space.
+_GRID = 150
+#: Cells near its border whose middles are drawn there.
+_MOST_MIDDLES = 30_000
 
 
 def _axes(ax: Axes | None) -> Axes:
@@ -89,19 +91,50 @@ def _cells(ax: Axes, lo: Any, hi: Any, number: int, label: str | None) -> None:
 
 
 def _images(ax: Axes, analysis: Analysis, mode: str, lo: Any, hi: Any, number: int, label: str | None, at: Mapping[str, float]) -> None:
-    """The middles of cells in joint space (q1, q2)."""
-    if number == 0:
+    """The image of an aspect in joint space (q1, q2): that of a grid, square by square."""
+    from matplotlib.collections import PolyCollection
+
+    robot, names = analysis.robot, analysis.robot.pose_names
+    free = [k for k in analysis._boxes().axes if names[k] not in at]
+    if number == 0 or len(lo) == 0:
         return
-    step = -(-len(lo) // _MOST_IMAGES)
-    free, held = analysis._boxes().axes, analysis.to_dict()["fixed"]
-    poses = np.zeros((len(lo[::step]), analysis.robot.dof))
-    poses[:, free] = 0.5 * (lo + hi)[::step]
-    for coordinate in held:
-        poses[:, analysis.robot.pose_names.index(coordinate["coordinate"])] = coordinate["value"]
-    for name, value in at.items():
-        poses[:, analysis.robot.pose_names.index(name)] = value
-    q = analysis.robot.ik(poses, mode=mode).q
-    ax.plot(q[:, 0], q[:, 1], ".", markersize=1, color=_colour(number), label=label)
+    if len(free) != 2:
+        raise _native.Error(f"{len(free)} coordinates vary: images in joint space are drawn where two do")
+    columns = [analysis._boxes().axes.index(k) for k in free]
+    lo, hi = lo[:, columns], hi[:, columns]
+
+    def joints(pairs: Any) -> Any:
+        """q1 and q2 at values (n, 2) of the free coordinates; nan where the legs do not reach, to rounding."""
+        poses = np.zeros((len(pairs), robot.dof))
+        for held in analysis.to_dict()["fixed"]:
+            poses[:, names.index(held["coordinate"])] = held["value"]
+        for name, value in at.items():
+            poses[:, names.index(name)] = value
+        poses[:, free] = pairs
+        batch, q = robot.ik(poses, mode=mode), np.full((len(pairs), 2), np.nan)
+        q[batch.row] = batch.q[:, :2]
+        return q
+
+    corners = joints(_squares(lo, hi).reshape(-1, 2)).reshape(-1, 4, 2)
+    # Those that a full turn tears apart are left out.
+    whole = (np.ptp(corners, axis=1) < np.pi).all(axis=1)
+    style: dict[str, Any] = {"facecolor": _colour(number), "edgecolor": "face", "linewidth": 0.3}
+    ax.add_collection(PolyCollection(list(corners[whole]), label=label, **style))
+    # The cells are the finer the nearer they are to the border: their middles make it sharp.
+    middles = 0.5 * (lo + hi)[:: -(-len(lo) // _MOST_MIDDLES)]
+    ax.plot(*joints(middles).T, ".", markersize=1, color=_colour(number))
+
+
+def _squares(lo: Any, hi: Any) -> Any:
+    """The corners (n, 4, 2) of the squares of an even grid of which cells hold all four."""
+    low, high = lo.min(axis=0), hi.max(axis=0)
+    step = (high - low) / _GRID
+    inside = np.zeros((_GRID + 1, _GRID + 1), dtype=bool)
+    first, last = np.ceil((lo - low) / step - 1e-9).astype(int), np.floor((hi - low) / step + 1e-9).astype(int)
+    for (i, j), (k, m) in zip(first[(first <= last).all(axis=1)], last[(first <= last).all(axis=1)], strict=True):
+        inside[i : k + 1, j : m + 1] = True
+    full = np.argwhere(inside[:-1, :-1] & inside[1:, :-1] & inside[1:, 1:] & inside[:-1, 1:])
+    return low + step * (full[:, None] + np.array([[0, 0], [1, 0], [1, 1], [0, 1]]))
 
 
 def profile(check: PathCheck, ax: Axes | None) -> Axes:

@@ -10,7 +10,7 @@ import warnings
 from collections.abc import Mapping, Sequence
 from os import PathLike, fspath
 from pathlib import Path
-from typing import Any, overload
+from typing import Any, TypeAlias, overload
 
 import numpy as np
 import tomli_w
@@ -31,9 +31,12 @@ from aspecta.results import (
     State,
     array_rows,
 )
-from aspecta.solutions import SolutionList, Solutions
+from aspecta.solutions import Solution, SolutionList, Solutions
 
 Array = NDArray[np.float64]
+
+#: Names of coordinates, and which of them are angles, by index.
+_Names: TypeAlias = tuple[list[str], list[int]]
 
 #: Depth of boxes when an analysis is a means, by the number of coordinates that vary; as for the command line.
 _COARSE = {1: 16, 2: 11, 3: 7}
@@ -66,7 +69,7 @@ class Robot:
         Error: there is no such robot, or the data makes none; the message names the file, the key and the value.
     """
 
-    __slots__ = ("_hash", "_native")
+    __slots__ = ("_coordinates", "_hash", "_modes", "_motors", "_native")
 
     def __init__(
         self,
@@ -95,6 +98,9 @@ class Robot:
     def _set(self, native: _native.Robot) -> None:
         self._native = native
         self._hash = hash(native.json())
+        self._modes = frozenset(native.modes)
+        self._coordinates = [name for name, _ in native.coordinates], [k for k, (_, angle) in enumerate(native.coordinates) if angle]
+        self._motors = [f"q{j + 1}" for j in range(native.dof)], [j for j, angle in enumerate(native.joint_angles) if angle]
         mixed = native.mixed_units()
         if mixed is not None:
             small, a, large, b = mixed
@@ -157,12 +163,12 @@ class Robot:
     @property
     def pose_names(self) -> list[str]:
         """The names of the pose coordinates, in their order."""
-        return [name for name, _ in self._native.coordinates]
+        return list(self._coordinates[0])
 
     @property
     def joint_names(self) -> list[str]:
         """The names of the joint coordinates: q1, q2, …"""
-        return [f"q{j + 1}" for j in range(self.dof)]
+        return list(self._motors[0])
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Robot) and self._native == other._native
@@ -215,11 +221,14 @@ class Robot:
         Raises:
             Error: the array does not fit the robot, or holds numbers that are not finite.
         """
-        rows, many = self._poses(pose, quaternion_xyzw, quaternion_wxyz)
-        found = Solutions(self._native.inverse(rows))
+        given = self._poses(pose, quaternion_xyzw, quaternion_wxyz)
         if mode is not None:
-            found = found.in_mode(self._known(mode))
-        return found if many else found[0]
+            self._known(mode)
+        if given.ndim == 1:
+            alone = (Solution(*parts) for parts in self._native.inverse_one(given))
+            return SolutionList([s for s in alone if mode in (None, s.mode)], True)
+        found = Solutions(self._native.inverse(given))
+        return found if mode is None else found.in_mode(mode)
 
     @overload
     def fk(self, q: Sequence[float]) -> SolutionList: ...
@@ -238,23 +247,27 @@ class Robot:
         Raises:
             Error: as :meth:`ik`; or the platform can move while the joints are locked.
         """
-        rows, many = self._rows(q, self.joint_names, self._native.joint_angles)
-        found = Solutions(self._native.direct(rows))
+        given = self._joints(q)
         if mode is not None:
-            found = found.in_mode(self._known(mode))
-        return found if many else found[0]
+            self._known(mode)
+        if given.ndim == 1:
+            all_parts, complete = self._native.direct_one(given)
+            alone = (Solution(*parts) for parts in all_parts)
+            return SolutionList([s for s in alone if mode in (None, s.mode)], complete)
+        found = Solutions(self._native.direct(given))
+        return found if mode is None else found.in_mode(mode)
 
     def state(self, pose: ArrayLike, q: ArrayLike) -> State | list[State]:
         """Return the Jacobians of a configuration, its kind of singularity and its distance from singularities.
 
         Of several, (n, dof) each, a list. The pose and the joint vector need not belong together: look at ``residual``.
         """
-        xs, many = self._poses(pose, None, None)
-        qs, _ = self._rows(q, self.joint_names, self._native.joint_angles)
-        if len(xs) != len(qs):
-            raise _native.Error(f"{len(xs)} poses and {len(qs)} joint vectors: give as many of each")
-        found = [State(self._native.state(x, y)) for x, y in zip(xs.tolist(), qs.tolist(), strict=True)]
-        return found if many else found[0]
+        xs, qs = self._poses(pose, None, None), self._joints(q)
+        if xs.shape != qs.shape:
+            raise _native.Error(f"poses {xs.shape} and joint vectors {qs.shape}: give as many of each")
+        if xs.ndim == 1:
+            return State(self._native.state(xs.tolist(), qs.tolist()))
+        return [State(self._native.state(x, y)) for x, y in zip(xs.tolist(), qs.tolist(), strict=True)]
 
     def follower(self, pose: ArrayLike, q: ArrayLike) -> Follower:
         """Return a :class:`Follower` that starts in a configuration, and follows its pose along joint vectors."""
@@ -303,7 +316,7 @@ class Robot:
         """
         wanted = [modes] if isinstance(modes, str) else list(modes)
         native, interrupted = self._native.analyze(
-            self._held(fix, self.pose_names, [angle for _, angle in self._native.coordinates]),
+            self._held(fix, self._coordinates),
             [self._known(mode) for mode in wanted],
             seconds,
             boxes,
@@ -341,7 +354,7 @@ class Robot:
         """Find where three direct solutions meet: all cusps of the slice in which a joint is held, such as
         ``fix={"q1": 14.98}``, proved; without ``fix``, of a robot with three coordinates, the curves they form.
         """
-        held = self._held(fix, self.joint_names, self._native.joint_angles)
+        held = self._held(fix, self._motors)
         return Cusps(_native.cusps(self._native, held, mode, boxes, reporter(progress)))
 
     # Paths.
@@ -375,8 +388,8 @@ class Robot:
             return PathCheck(*_native.check_joints(self._native, array_rows(joints), first, asked))
         if mode is None:
             raise _native.Error(f"say in which working mode the poses are taken: mode = one of {', '.join(self.modes)}")
-        rows, _ = self._poses(poses, None, None)
-        return PathCheck(*_native.check_poses(self._native, rows.tolist(), self._known(mode), asked))
+        rows = np.atleast_2d(self._poses(poses, None, None)).tolist()
+        return PathCheck(*_native.check_poses(self._native, rows, self._known(mode), asked))
 
     def time(
         self,
@@ -474,24 +487,23 @@ class Robot:
     # Input.
 
     def _known(self, mode: str) -> str:
-        if mode not in self.modes:
+        if mode not in self._modes:
             raise _native.Error(f"`{mode}` is no working mode of `{self.name}`, which has {', '.join(self.modes)}")
         return mode
 
-    def _held(self, fix: Mapping[str, float] | None, names: list[str], angles: list[bool]) -> list[tuple[int, float]]:
+    def _held(self, fix: Mapping[str, float] | None, coordinates: _Names) -> list[tuple[int, float]]:
+        names, angles = coordinates
         held = []
         for name, value in (fix or {}).items():
             if name not in names:
                 raise _native.Error(f"fix: `{name}` is none of {', '.join(names)}")
             held.append((names.index(name), float(value)))
-            if angles[names.index(name)]:
+            if names.index(name) in angles:
                 _warn_of_degrees(name, float(value))
         return held
 
-    def _poses(
-        self, pose: ArrayLike | None, xyzw: ArrayLike | None, wxyz: ArrayLike | None
-    ) -> tuple[Array, bool]:
-        """Poses as rows, and whether several were given."""
+    def _poses(self, pose: ArrayLike | None, xyzw: ArrayLike | None, wxyz: ArrayLike | None) -> Array:
+        """One pose (dof,), or rows of several (n, dof)."""
         given = np.asarray(pose, dtype=float)
         if xyzw is not None or wxyz is not None:
             if self.platform != "free-body":
@@ -500,23 +512,27 @@ class Robot:
             if given.shape != turns.shape:
                 raise _native.Error(f"positions {given.shape} and orientations {turns.shape}: give (3,) or (n, 3) of both")
             given = np.concatenate([given, turns], axis=-1)
-        elif given.shape[-2:] == (4, 4) and given.ndim in (2, 3) and self.dof != 4:
+        elif given.shape[-2:] == (4, 4) and given.ndim <= 3:
             given = poses.from_matrix(self.platform, given)
-        return self._rows(given, self.pose_names, [angle for _, angle in self._native.coordinates])
+        return self._fitting(given, self._coordinates)
 
-    def _rows(self, values: ArrayLike, names: list[str], angles: list[bool]) -> tuple[Array, bool]:
-        """Numbers as rows, and whether several were given."""
-        given = np.asarray(values, dtype=float)
+    def _joints(self, q: ArrayLike) -> Array:
+        """One joint vector (dof,), or rows of several (n, dof)."""
+        return self._fitting(np.asarray(q, dtype=float), self._motors)
+
+    def _fitting(self, given: Array, coordinates: _Names) -> Array:
+        """Numbers that fit the robot, as the compiled part takes them."""
+        names, angles = coordinates
         if given.ndim not in (1, 2) or given.shape[-1] != len(names):
             raise _native.Error(
                 f"an array of shape {given.shape}: `{self.name}` has {len(names)} coordinates ({', '.join(names)}), give "
                 f"({len(names)},) or (n, {len(names)})"
             )
-        rows = np.ascontiguousarray(np.atleast_2d(given))
-        for k in np.flatnonzero(angles):
-            if len(rows):
-                _warn_of_degrees(names[k], float(rows[np.abs(rows[:, k]).argmax(), k]))
-        return rows, given.ndim == 2
+        if angles and given.size and np.abs(given).max() > 2 * math.pi:
+            for k in angles:
+                column = given[..., k].ravel()
+                _warn_of_degrees(names[k], float(column[np.abs(column).argmax()]))
+        return np.ascontiguousarray(given)
 
 
 def _vector(values: ArrayLike) -> list[float]:
@@ -529,7 +545,7 @@ def _warn_of_degrees(name: str, angle: float) -> None:
         warnings.warn(
             f"{name} = {angle:g} is taken in radians, {turns:.1f} full turns; if it is in degrees, convert it with numpy.radians",
             UnitWarning,
-            stacklevel=5,
+            stacklevel=4,
         )
 
 
