@@ -35,6 +35,7 @@ struct Cli {
 
 const EXIT_STATUS: &str = "\
 ROBOT is a name from `aspecta robots` or the path of a robot file.
+A working mode is given by its signs, `--mode +-`, or by the postures of its legs, `--mode left,right` (docs/robot-files.md).
 Exit status: 0 done; 1 ran, but the answer is negative or undecided; 2 bad input.";
 
 /// Runs the command that the program's arguments name.

@@ -18,6 +18,7 @@ mod leg_index;
 pub mod legs;
 pub mod num;
 mod platform;
+mod postures;
 mod sizes;
 mod slice;
 mod sound;

@@ -54,7 +54,7 @@ pub struct Analyze {
     fix: FixArg,
     /// Analyse this working mode only, such as +-+; again, or separated by commas, for several [default: all]. A robot with more than 8 is paved once for every
     /// 8, which share the budget
-    #[arg(long, value_name = "SIGNS", value_delimiter = ',', allow_hyphen_values = true)]
+    #[arg(long, value_name = "SIGNS", allow_hyphen_values = true)]
     mode: Vec<String>,
     #[command(flatten)]
     threads: Threads,

@@ -128,25 +128,32 @@ pub fn warn_of_mixed_units(robot: &Robot) {
     }
 }
 
-/// The working mode given to `--mode`, which must be one of the robot's.
+/// The working mode given to `--mode`, which must be one of the robot's: by its signs, or leg by leg by the
+/// names of postures.
 pub fn mode(robot: &Robot, text: &str) -> Result<WorkingMode, Failure> {
-    let modes = robot.working_modes();
-    let given = text.parse().ok().filter(|m| modes.contains(m));
-    given.ok_or_else(|| {
-        let names: Vec<_> = modes.iter().map(WorkingMode::to_string).collect();
+    robot.working_mode(text).ok_or_else(|| {
+        let names: Vec<_> = robot.working_modes().iter().map(WorkingMode::to_string).collect();
+        let words = robot.postures_in_words();
+        let by_name = words.map_or(String::new(), |w| format!("; or a name for each leg, with commas: {w}"));
         Failure::Input(format!(
-            "--mode: `{text}` is not a working mode of `{}`; it has {}",
+            "--mode: `{text}` is not a working mode of `{}`; it has {}{by_name}",
             robot.name,
             names.join(", ")
         ))
     })
 }
 
-/// The working modes given to `--mode`, each once.
+/// The working modes given to `--mode`, each once. Those given leg by leg have commas inside, as there are
+/// between modes.
 pub fn modes(robot: &Robot, given: &[String]) -> Result<Vec<WorkingMode>, Failure> {
+    let mut parts = given.iter().flat_map(|text| text.split(',')).map(str::trim);
     let mut modes = Vec::new();
-    for text in given {
-        let mode = mode(robot, text.trim())?;
+    while let Some(first) = parts.next() {
+        // No robot has one leg.
+        let is_whole = first.parse::<WorkingMode>().is_ok_and(|mode| mode.legs() > 1);
+        let others = if is_whole { 0 } else { robot.dof() - 1 };
+        let text: Vec<&str> = std::iter::once(first).chain(parts.by_ref().take(others)).collect();
+        let mode = mode(robot, &text.join(","))?;
         if !modes.contains(&mode) {
             modes.push(mode);
         }

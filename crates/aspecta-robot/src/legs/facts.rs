@@ -16,6 +16,8 @@ pub struct Facts {
     pub is_on_sphere: bool,
     /// How many inverse solutions a leg has.
     pub postures: usize,
+    /// What the postures with the signs + and − are called; none has a name where there is one only.
+    pub posture_names: &'static [&'static str],
     /// Why the sign of ∂f/∂q names them.
     pub why_not_cuspidal: &'static str,
     /// Whether q is an angle (rad) rather than a length.

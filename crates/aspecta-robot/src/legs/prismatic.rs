@@ -30,6 +30,8 @@ impl LegKind for Prismatic {
         spatial_keys: &["rod", "direction"],
         is_on_sphere: false,
         postures: 2,
+        // Where B is along the rail, as seen from C.
+        posture_names: &["ahead", "behind"],
         why_not_cuspidal: ROOTS_OF_A_QUADRATIC,
         is_angle: false,
         is_positive: false,

@@ -45,6 +45,8 @@ impl LegKind for Revolute {
         spatial_keys: &["crank", "rod", "axis", "zero"],
         is_on_sphere: false,
         postures: 2,
+        // The side of the way from A to C where B is; in space as seen against the motor's axis.
+        posture_names: &["left", "right"],
         why_not_cuspidal: ROOTS_OF_A_QUADRATIC,
         is_angle: true,
         is_positive: false,

@@ -38,6 +38,9 @@ impl LegKind for Spherical {
         spatial_keys: &["proximal", "distal", "axis", "zero"],
         is_on_sphere: true,
         postures: 2,
+        // The side of the way from the axis to the platform joint where the intermediate joint is, as seen
+        // from outside.
+        posture_names: &["right", "left"],
         why_not_cuspidal: ROOTS_OF_A_QUADRATIC,
         is_angle: true,
         is_positive: false,

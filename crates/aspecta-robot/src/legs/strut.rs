@@ -32,6 +32,7 @@ impl LegKind for Strut {
         spatial_keys: &[],
         is_on_sphere: false,
         postures: 1,
+        posture_names: &[],
         why_not_cuspidal: "one posture: the strut's length is positive",
         is_angle: false,
         is_positive: true,
