@@ -1,5 +1,6 @@
 //! The two geometric models of a robot and what is read off them, in one place.
 
+use super::constraints::{self, Bound};
 use super::{
     DirectSolutions, Jacobians, KinematicsError, LegSolutions, OutOfReach, Poses, Solution, State,
     check_joints, check_pose, direct, for_platform, inverse, jacobian, out_of_reach, singularity,
@@ -180,6 +181,25 @@ pub trait Kinematics {
     /// # Ok::<(), aspecta_kinematics::KinematicsError>(())
     /// ```
     fn state(&self, pose: &[f64], q: &[f64]) -> Result<State, KinematicsError>;
+
+    /// What a configuration of a working mode goes beyond: joint limits, and the ends of the robot's window.
+    /// None where `within_limits` is true.
+    ///
+    /// # Errors
+    /// [`KinematicsError`] if `pose` has the wrong length or is not finite.
+    ///
+    /// # Examples
+    /// ```
+    /// use aspecta_kinematics::Kinematics;
+    /// use aspecta_robot::catalogue;
+    ///
+    /// let robot = catalogue::find("2-prr").unwrap(); // its sliders go from 0 to 800
+    /// let broken = robot.broken_limits(&[0.0, 100.0], "+-".parse().unwrap())?;
+    /// let names: Vec<String> = broken.iter().map(|bound| bound.named(&robot)).collect();
+    /// assert_eq!(names, ["actuator limit of leg 2"]);
+    /// # Ok::<(), aspecta_kinematics::KinematicsError>(())
+    /// ```
+    fn broken_limits(&self, pose: &[f64], mode: WorkingMode) -> Result<Vec<Bound>, KinematicsError>;
 }
 
 impl Kinematics for Robot {
@@ -220,6 +240,16 @@ impl Kinematics for Robot {
     fn state(&self, pose: &[f64], q: &[f64]) -> Result<State, KinematicsError> {
         singularity::state(self, pose, q)
     }
+
+    fn broken_limits(&self, pose: &[f64], mode: WorkingMode) -> Result<Vec<Bound>, KinematicsError> {
+        check_pose(self, pose)?;
+        Ok(broken_limits(self, pose, mode))
+    }
+}
+
+fn broken_limits(robot: &Robot, pose: &[f64], mode: WorkingMode) -> Vec<Bound> {
+    use constraints::broken_limits;
+    for_platform!(robot.platform, broken_limits(robot, pose, mode))
 }
 
 fn jacobians(robot: &Robot, pose: &[f64], q: &[f64]) -> Jacobians {

@@ -71,11 +71,14 @@ impl Robot {
     /// # Ok::<(), aspecta_robot::FileError>(())
     /// ```
     pub fn beyond_window(&self, pose: &[f64]) -> Option<usize> {
-        if self.window.iter().all(Option::is_none) {
-            return None;
-        }
+        self.all_beyond_window(pose).next()
+    }
+
+    /// All coordinates of a pose that lie beyond the user's window, as [`Robot::beyond_window`] tells the
+    /// first.
+    pub fn all_beyond_window(&self, pose: &[f64]) -> impl Iterator<Item = usize> {
         let pose = self.with_level_pitch(padded(pose));
-        (0..self.dof()).find(|&k| {
+        (0..self.dof()).filter(move |&k| {
             self.window_range(k).is_some_and(|range| {
                 let x =
                     if self.platform.coordinates()[k].periodic { turned_up(pose[k], range) } else { pose[k] };

@@ -6,6 +6,7 @@ use crate::args::robot::RobotArg;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns, Row, Rows};
 use crate::output::{FORMAT_VERSION, Format, Labels, exact, json_line, note};
+use crate::show::beyond::names;
 use aspecta::kinematics::WorkingMode;
 use aspecta::motion::follow::{Follower, InverseFollower, JointStep, Refusal, Step};
 use aspecta::num::turned_to;
@@ -78,6 +79,7 @@ enum Outcome {
         #[serde(skip_serializing_if = "Option::is_none")]
         regular: Option<bool>,
         within_limits: bool,
+        beyond: Vec<String>,
         stretches: u32,
         #[serde(skip_serializing_if = "Option::is_none")]
         length_error: Option<f64>,
@@ -125,10 +127,14 @@ impl Follow {
                     follower.insert(started)
                 }
             };
-            let (found, outcome) = match follower.step(&row) {
+            let (found, mut outcome) = match follower.step(&row) {
                 Err(e) => (None, Outcome::Refused { refused: e, message: e.to_string() }),
                 Ok((found, outcome)) => (Some(found), outcome),
             };
+            if let Outcome::Certified { within_limits: false, mode, beyond, .. } = &mut outcome {
+                let pose = if self.inverse { Some(&row.values) } else { found.as_ref() };
+                *beyond = pose.map_or(Vec::new(), |pose| names(&robot, pose, *mode));
+            }
             steps += 1;
             match found {
                 Some(_) => turns.last.clone_from(&row.values),
@@ -167,6 +173,7 @@ impl Any {
                     mode_kept: Some(mode_kept),
                     regular: None,
                     within_limits,
+                    beyond: Vec::new(),
                     stretches,
                     length_error: Some(length_error),
                     angle_error: Some(angle_error),
@@ -181,6 +188,7 @@ impl Any {
                     mode_kept: None,
                     regular: Some(regular),
                     within_limits,
+                    beyond: Vec::new(),
                     stretches,
                     length_error: None,
                     angle_error: None,
@@ -232,10 +240,13 @@ impl Printer {
             Format::Json => json_line(out, &record)?,
             Format::Csv => writeln!(out, "{}", self.csv(&record))?,
             Format::Table => match (&record.outcome, found) {
-                (Outcome::Certified { mode, mode_kept, regular, within_limits, .. }, Some(found)) => {
+                (Outcome::Certified { mode, mode_kept, regular, beyond, .. }, Some(found)) => {
                     let kept = if *mode_kept == Some(false) { ", a leg may have been singular" } else { "" };
                     let met = if *regular == Some(false) { ", det A may have vanished" } else { "" };
-                    let limits = if *within_limits { "" } else { ", beyond limits" };
+                    let limits = match beyond.as_slice() {
+                        [] => String::new(),
+                        beyond => format!(", beyond limits: {}", beyond.join(", ")),
+                    };
                     let found = self.found.sentence(found);
                     writeln!(out, "{:>6}  {found}  mode {mode}{kept}{met}{limits}", row.line)?;
                 }

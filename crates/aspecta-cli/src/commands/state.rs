@@ -8,6 +8,7 @@ use crate::args::robot::RobotArg;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
 use crate::output::{Align, Labels, Shown, Table, det_a_unit, exact, note, number, print_each};
+use crate::show::beyond::{entry, of_state};
 use crate::show::solutions::signs;
 use crate::work::solve;
 use aspecta::Kinematics;
@@ -123,6 +124,7 @@ struct InFull<'a> {
     #[serde(flatten)]
     state: &'a kinematics::State,
     velocities: kinematics::Velocities,
+    beyond: Vec<String>,
 }
 
 impl Shown for States<'_> {
@@ -141,7 +143,12 @@ impl Shown for States<'_> {
     }
 
     fn json(&self, found: &Found) -> impl Serialize {
-        let in_full = |state| InFull { state, velocities: kinematics::State::velocities(state, self.robot) };
+        let robot = self.robot;
+        let in_full = |state| InFull {
+            velocities: kinematics::State::velocities(state, robot),
+            beyond: of_state(robot, state),
+            state,
+        };
         AnswerInFull { states: found.states.iter().map(in_full).collect() }
     }
 
@@ -193,8 +200,8 @@ fn print_table(out: &mut dyn Write, robot: &Robot, found: &[Found], degrees: boo
             let serial = s.serial_measures.iter().copied().fold(f64::INFINITY, f64::min);
             let numbers = [s.det_a, s.condition_a, s.condition_b, s.parallel_measure, serial].map(number);
             let line = f.query.line.unwrap_or_default().to_string();
-            let labels = [s.singularity.name(), if s.within_limits { "within" } else { "beyond" }];
-            table.row([line, mode(s)].into_iter().chain(numbers).chain(labels.map(String::from)));
+            let labels = [s.singularity.name().into(), entry(&of_state(robot, s))];
+            table.row([line, mode(s)].into_iter().chain(numbers).chain(labels));
         }
     }
     write!(out, "{table}")?;
@@ -216,11 +223,9 @@ fn print_one(
 ) -> Result<(), Failure> {
     let serial = if s.mode.is_none() { " (0: serial singularity)" } else { "" };
     writeln!(out, "\nworking mode  {}{serial}", mode(s))?;
-    let limits = match robot.beyond_window(&s.pose) {
-        Some(k) => format!(" (beyond limits: {} is beyond the window)", robot.platform.coordinates()[k].name),
-        None if s.within_limits => String::new(),
-        None => " (beyond joint limits)".into(),
-    };
+    let beyond = of_state(robot, s);
+    let limits =
+        if beyond.is_empty() { String::new() } else { format!(" (beyond limits: {})", beyond.join(", ")) };
     writeln!(out, "joints        {}{limits}", Labels::joints(robot, degrees).sentence(&s.q))?;
     writeln!(
         out,

@@ -1,5 +1,6 @@
 //! Results for people, scripts and spreadsheets: summaries, tables and JSON of what several commands find.
 
+pub mod beyond;
 pub mod doubts;
 pub mod facts;
 pub mod groups;

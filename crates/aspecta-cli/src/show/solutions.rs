@@ -1,5 +1,6 @@
 //! Prints the solutions of `ik` and `fk`.
 
+use super::beyond::{WithBeyond, entry, of_solution};
 use crate::args::given::Query;
 use crate::failure::Failure;
 use crate::input::Columns;
@@ -39,7 +40,7 @@ struct Answer<'a> {
     q: Option<&'a [f64]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     complete: Option<bool>,
-    solutions: &'a [Solution],
+    solutions: Vec<WithBeyond<'a, Solution>>,
 }
 
 impl Shown for Solutions<'_> {
@@ -60,7 +61,8 @@ impl Shown for Solutions<'_> {
     fn json(&self, found: &Found) -> impl Serialize {
         let given = found.query.line.map(|_| found.query.values.as_slice());
         let (pose, q) = if self.unknown == Unknown::Joints { (given, None) } else { (None, given) };
-        Answer { pose, q, complete: found.complete, solutions: &found.solutions }
+        let solutions = found.solutions.iter().map(|s| WithBeyond::of(self.robot, s)).collect();
+        Answer { pose, q, complete: found.complete, solutions }
     }
 
     fn columns(&self) -> Vec<String> {
@@ -150,7 +152,7 @@ fn table(shown: &Solutions<'_>, found: &[Found]) -> Table {
                 number(s.det_a),
                 format!("{:.0e}", s.residual),
                 if s.certified { "yes" } else { "no" }.into(),
-                if s.within_limits { "within" } else { "beyond" }.into(),
+                entry(&of_solution(robot, s)),
             ];
             table.row(line.into_iter().chain([mode(s)]).chain(wanted.numbers(unknowns)).chain(labels));
         }

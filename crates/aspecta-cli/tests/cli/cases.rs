@@ -1,6 +1,7 @@
 //! What new users met, each with what is right.
 
 mod asked;
+mod beyond;
 mod postures;
 
 use crate::{aspecta, json, numbers, output, stdout};

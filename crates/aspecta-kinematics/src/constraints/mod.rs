@@ -9,12 +9,15 @@
 //! coordinate, the same in all modes, and change with the question that is asked. Where P is formed, where
 //! boundaries are drawn and where solutions and paths are told to be within limits they stand beside this list.
 
+mod bound;
 mod configuration;
 mod demand;
 mod limit;
 mod margins;
 mod window;
 
+pub use bound::Bound;
+pub(crate) use bound::broken_limits;
 pub(crate) use configuration::within_limits;
 pub use configuration::{Configuration, is_limited};
 pub use demand::{Constraints, Demand};

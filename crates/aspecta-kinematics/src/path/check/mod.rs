@@ -11,11 +11,12 @@ mod obstacle;
 mod profile;
 mod window;
 
+pub use crate::constraints::Bound;
 pub use clearance::{Clearance, Least};
 pub use error::PathError;
 pub use join::Joined;
 pub use joints::check_joints;
-pub use obstacle::{Asked, Bound, Obstacle};
+pub use obstacle::{Asked, Obstacle};
 pub use profile::ProfilePoint;
 
 use crate::Kinematics;

@@ -1,7 +1,7 @@
 //! Where a path fails, and in what.
 
-use crate::constraints::{self, Constraint, Kind, Margins};
-use serde::{Serialize, Serializer};
+use crate::constraints::{Bound, Kind, Margins};
+use serde::Serialize;
 use std::cmp::Ordering;
 
 /// A demand on every configuration of a path.
@@ -14,32 +14,6 @@ pub enum Asked {
     Margin,
     /// To be within joint limits and the robot's window.
     Limit,
-}
-
-/// What a path must not go beyond.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Bound {
-    /// What bounds the aspects of the robot.
-    Constraint(Constraint),
-    /// The robot's window.
-    Window {
-        /// The name of the coordinate that it bounds.
-        coordinate: &'static str,
-    },
-}
-
-impl Serialize for Bound {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        #[derive(Serialize)]
-        #[serde(tag = "kind", rename = "window")]
-        struct Window {
-            coordinate: &'static str,
-        }
-        match *self {
-            Self::Constraint(constraint) => constraints::constraint(&constraint, serializer),
-            Self::Window { coordinate } => Window { coordinate }.serialize(serializer),
-        }
-    }
 }
 
 /// The place where a path fails, or is in doubt.
