@@ -1,7 +1,8 @@
 //! `--json`, `--csv` and `--deg`: how results are shown.
 
-use crate::output::Format;
+use crate::output::{Format, note};
 use clap::Args;
+use std::sync::Once;
 
 /// The `--json` and `--csv` switches.
 #[derive(Args, Clone, Copy)]
@@ -9,7 +10,7 @@ pub struct FormatArgs {
     /// Print JSON, and nothing else, on stdout (angles in radians)
     #[arg(long, conflicts_with = "csv")]
     json: bool,
-    /// Print CSV with a header (angles in radians)
+    /// Print CSV with a header (angles in radians, whatever --deg says)
     #[arg(long)]
     csv: bool,
 }
@@ -64,17 +65,28 @@ pub struct ShownArgs {
 impl ShownArgs {
     /// The format asked for.
     pub fn format(self) -> Format {
-        self.format.format()
+        self.format.beside(self.deg)
     }
 }
 
 impl FormatArgs {
-    /// The format asked for.
-    pub fn format(self) -> Format {
+    /// The format asked for, beside `--deg` or not. Who asks for degrees and gets CSV is told that it is in
+    /// radians: the next command would else be told to read degrees.
+    pub fn beside(self, degrees: bool) -> Format {
+        static TOLD: Once = Once::new();
         match self {
             Self { json: true, .. } => Format::Json,
-            Self { csv: true, .. } => Format::Csv,
+            Self { csv: true, .. } => {
+                if degrees {
+                    TOLD.call_once(|| note(IN_RADIANS));
+                }
+                Format::Csv
+            }
             _ => Format::Table,
         }
     }
 }
+
+const IN_RADIANS: &str = "\
+    warning: angles of this CSV are in radians, as of all that is printed (--deg is for the input and for what \
+    people read): what reads it is to go without --deg";

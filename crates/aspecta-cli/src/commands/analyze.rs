@@ -1,7 +1,7 @@
 //! `aspecta analyze`: working modes and generalized aspects.
 
 use crate::args::budget;
-use crate::args::fix::FixArg;
+use crate::args::fix::{FixArg, OF_FIX_AND_TABLES};
 use crate::args::format::TableArgs;
 use crate::args::help::help;
 use crate::args::out::OutDir;
@@ -28,7 +28,7 @@ use std::path::PathBuf;
     "Print the whole result as JSON, and nothing else, on stdout (angles in radians)"
 )))]
 #[command(mut_args(help("threads", threads::OF_NO_WEIGHT)))]
-#[command(mut_args(help("deg", "Angles of the tables are in degrees; --fix and --json keep to radians")))]
+#[command(mut_args(help("deg", OF_FIX_AND_TABLES)))]
 #[command(after_help = EXIT_STATUS)]
 pub struct Analyze {
     #[command(flatten)]
@@ -75,7 +75,7 @@ const ADVICE: AnalysisAdvice =
 impl Analyze {
     pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
         let robot = self.robot.load()?;
-        let fix = self.fix.coordinates(&robot)?;
+        let fix = self.fix.coordinates(&robot, self.shown.deg)?;
         self.out.check()?;
         let proof = self.certificate.as_deref().map(|path| Target::new("--certificate", path)).transpose()?;
         let budget = self.budget.unwrap_or_default();

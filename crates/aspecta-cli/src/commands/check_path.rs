@@ -56,7 +56,8 @@ impl CheckPath {
         let check = self.path.check()?;
         let draw = |directory: &Path| draw(directory, &check).map_err(Failure::in_directory(directory));
         let drawn = self.out.directory().map(draw).transpose()?;
-        match self.format.format() {
+        let format = self.format.beside(self.path.deg);
+        match format {
             Format::Json => {
                 let robot = &check.robot.name;
                 json(out, &Document { format_version: FORMAT_VERSION, robot, check: &check })?;
@@ -68,7 +69,7 @@ impl CheckPath {
         }
         if let Some([figure, motion]) = drawn {
             let written = format!("figure: {}\nmotion: {}", figure.display(), motion.display());
-            self.format.format().say(out, &written)?;
+            format.say(out, &written)?;
         }
         Ok(Answer::from(check.is_sound()))
     }

@@ -1,7 +1,7 @@
 //! `aspecta cusps`: where three direct solutions meet.
 
 use crate::args::budget;
-use crate::args::fix::FixArg;
+use crate::args::fix::{FixArg, OF_FIX_AND_TABLES};
 use crate::args::format::TableArgs;
 use crate::args::help::{help, value_name};
 use crate::args::mode::ModeArg;
@@ -29,6 +29,7 @@ use std::time::Duration;
 #[derive(Args)]
 #[command(mut_args(help("fix", FIX)))]
 #[command(mut_args(value_name("fix", "JOINT=VALUE")))]
+#[command(mut_args(help("deg", OF_FIX_AND_TABLES)))]
 #[command(mut_args(help("mode", "Only the cusps in this working mode, such as `+-+`")))]
 #[command(mut_args(help("threads", threads::OF_NO_WEIGHT)))]
 #[command(after_help = EXAMPLE)]
@@ -72,7 +73,7 @@ impl Cusps {
     pub fn run(&self, out: &mut dyn Write) -> Result<Answer, Failure> {
         let robot = self.robot.load()?;
         let mode = self.mode.of(&robot)?;
-        let options = Options { fix: self.fix.joints(&robot)?, mode, boxes: self.boxes };
+        let options = Options { fix: self.fix.joints(&robot, self.shown.deg)?, mode, boxes: self.boxes };
         if options.fix.is_empty() && robot.dof() == 3 {
             let found = self.within_budget(|control| cusp_curves(&robot, &options, control))??;
             if self.shown.json() {

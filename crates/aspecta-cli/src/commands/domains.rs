@@ -2,8 +2,8 @@
 
 use crate::args::det::DetArg;
 use crate::args::drawing::Drawing;
-use crate::args::fix::FixArg;
-use crate::args::format::JsonArg;
+use crate::args::fix::{FixArg, OF_FIX_AND_TABLES};
+use crate::args::format::TableArgs;
 use crate::args::help::{help, value_name};
 use crate::args::making::Making;
 use crate::args::mode::ModeArg;
@@ -35,6 +35,7 @@ use std::path::{Path, PathBuf};
     "json",
     "Print the whole result as JSON, and nothing else, on stdout (angles in radians)"
 )))]
+#[command(mut_args(help("deg", OF_FIX_AND_TABLES)))]
 #[command(mut_args(help("mode", "Only aspects of this working mode, such as `+-+`")))]
 #[command(mut_args(value_name("mode", "SIGNS")))]
 #[command(mut_args(help("det", "Only aspects with this sign of det A")))]
@@ -56,7 +57,7 @@ pub struct Domains {
     #[command(flatten)]
     making: Making,
     #[command(flatten)]
-    shown: JsonArg,
+    shown: TableArgs,
     /// Write all of it into this file, for `aspecta locate` and for `aspecta domains` to print and draw again
     #[arg(long, value_name = "FILE")]
     save: Option<PathBuf>,
@@ -138,7 +139,7 @@ impl Domains {
 
     /// The slice, if one is asked for.
     fn part(&self, robot: &Robot, wanted: Wanted) -> Result<Part, Failure> {
-        let fix = self.fix.coordinates(robot)?;
+        let fix = self.fix.coordinates(robot, self.shown.deg)?;
         if !fix.is_empty() && self.save.is_some() {
             return Err(Failure::Input(
                 "--save keeps maps of whole workspaces: leave out --fix, or take --json".into(),
@@ -166,7 +167,7 @@ impl Domains {
     }
 
     fn print(&self, out: &mut dyn Write, map: &Map, sheets: &[&MappedAspect]) -> Result<(), Failure> {
-        if self.shown.json {
+        if self.shown.json() {
             let domains = sheets.iter().map(|sheet| &sheet.domains).collect();
             let (robot, aspects) = (&map.robot, map.aspects);
             let fixed = map.window.held().map(|(k, x)| (robot.platform.coordinates()[k].name, x)).collect();
@@ -179,7 +180,11 @@ impl Domains {
             if k > 0 {
                 writeln!(out)?;
             }
-            write!(out, "{}", DomainsSummary { domains: &sheet.domains, advice: ADVICE })?;
+            write!(
+                out,
+                "{}",
+                DomainsSummary { domains: &sheet.domains, degrees: self.shown.deg, advice: ADVICE }
+            )?;
         }
         if sheets.is_empty() {
             let found: usize = map.classes.iter().map(|class| class.aspects.len()).sum();

@@ -95,19 +95,20 @@ impl Time {
         timing::check_length(&motion, self.rate.rate)?;
         let write = |path: &Path| timing::write("--out", path, robot, &motion, self.rate.rate);
         let written = self.out.as_deref().map(write).transpose()?;
-        match self.format.format() {
+        let format = self.format.beside(self.path.deg);
+        match format {
             Format::Json => json(out, &self.document(&check, Some((&motion, &limits))))?,
             Format::Csv => timing::rows(out, robot, &motion, self.rate.rate)?,
             Format::Table => self.summary(out, &check, &motion)?,
         }
         if let Some(written) = written {
-            self.format.format().say(out, &written)?;
+            format.say(out, &written)?;
         }
         Ok(Answer::Yes)
     }
 
     fn refuse(&self, out: &mut dyn Write, check: &PathCheck) -> Result<Answer, Failure> {
-        if self.format.format() == Format::Json {
+        if self.format.beside(false) == Format::Json {
             json(out, &self.document(check, None))?;
         }
         let why = check.obstacle.as_ref().map_or(String::new(), |o| format!(": {}", check.in_words(o)));

@@ -4,6 +4,7 @@ use super::Columns;
 use super::fields::Fields;
 use super::lines::Lines;
 use crate::failure::Failure;
+use crate::output::note;
 use aspecta_view::words::count;
 use std::fmt::Display;
 use std::fs::File;
@@ -103,6 +104,12 @@ impl<'a> Rows<'a> {
                 let of = if header { Shape::of_header } else { Shape::of_row };
                 let found = self.shape.insert(of(&fields, self.layouts)?);
                 if header {
+                    if self.degrees && found.is_printed() {
+                        note(&format!(
+                            "warning: {} has a column `mode`, as CSV that aspecta prints, whose angles are in radians; with --deg they are taken in degrees",
+                            self.name
+                        ));
+                    }
                     return Ok(None);
                 }
                 found
@@ -168,6 +175,11 @@ impl Shape {
         layouts.iter().find_map(fit).ok_or_else(|| {
             format!("the header `{}` lacks a column; {} wanted", header.join(","), wanted(layouts))
         })
+    }
+
+    /// Whether it seems to be of angles that one of the commands has printed.
+    fn is_printed(&self) -> bool {
+        self.mode.is_some() && self.columns.angles.contains(&true)
     }
 
     fn of_row(row: &[&str], layouts: &[Columns]) -> Result<Self, String> {

@@ -2,6 +2,7 @@
 
 mod asked;
 mod beyond;
+mod degrees;
 mod postures;
 
 use crate::{aspecta, json, numbers, output, stdout};

@@ -32,6 +32,13 @@ impl Labels {
         Self { units: angles.iter().map(unit).collect(), names, angles, degrees }
     }
 
+    /// Returns the same labels with angles in degrees.
+    pub fn in_degrees(mut self) -> Self {
+        let angles = self.units.iter_mut().zip(&self.angles).filter(|(_, angle)| **angle);
+        angles.for_each(|(unit, _)| *unit = "deg".into());
+        Self { degrees: true, ..self }
+    }
+
     /// Returns the labels of some coordinates, by index.
     pub fn only(mut self, which: &[usize]) -> Self {
         self.names = which.iter().map(|&k| self.names[k].clone()).collect();

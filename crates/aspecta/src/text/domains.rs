@@ -1,6 +1,6 @@
 //! The basic regions and uniqueness domains of an aspect for people.
 
-use super::{Align, Table, brief};
+use super::{Align, Labels, Table, brief};
 use crate::domain::{Coincidence, Domains, RegionId};
 use aspecta_robot::num::count;
 use std::fmt::{self, Write};
@@ -31,6 +31,8 @@ impl Default for DomainsAdvice {
 pub struct DomainsSummary<'a> {
     /// The regions and domains.
     pub domains: &'a Domains,
+    /// Whether angles of poses and cells are in degrees; else in radians.
+    pub degrees: bool,
     /// The advice.
     pub advice: DomainsAdvice,
 }
@@ -56,25 +58,28 @@ pub struct DomainsSummary<'a> {
 /// ```
 impl fmt::Display for Domains {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        DomainsSummary { domains: self, advice: DomainsAdvice::default() }.fmt(f)
+        DomainsSummary { domains: self, degrees: false, advice: DomainsAdvice::default() }.fmt(f)
     }
 }
 
 impl fmt::Display for DomainsSummary<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { domains, advice } = self;
-        heading(f, domains)?;
-        regions(f, domains, advice)?;
+        let Self { domains, degrees, advice } = self;
+        let pose = domains.pose.clone();
+        let pose = if *degrees { pose.in_degrees() } else { pose };
+        heading(f, domains, &pose)?;
+        regions(f, domains, &pose, advice)?;
         uniqueness(f, domains, advice)?;
         agreement(f, domains)?;
         images(f, domains, advice)?;
-        failures(f, domains)
+        failures(f, domains, &pose)
     }
 }
 
-fn heading(out: &mut dyn Write, found: &Domains) -> fmt::Result {
-    let Domains { aspect, mode, det_a, unit, window, pose, .. } = found;
-    let cells: Vec<String> = found.cell.iter().map(|w| brief(*w)).collect();
+fn heading(out: &mut dyn Write, found: &Domains, pose: &Labels) -> fmt::Result {
+    let Domains { aspect, mode, det_a, unit, window, .. } = found;
+    let free = pose.clone().only(&window.axes());
+    let cells: Vec<String> = free.briefly(&found.cell).collect();
     writeln!(
         out,
         "aspect {aspect} (mode {mode}, det A {det_a}): {} {} {}, numerical, in cells of {}",
@@ -102,11 +107,11 @@ fn percent(share: f64) -> String {
     format!("{:.1} %", 100.0 * share)
 }
 
-fn regions(out: &mut dyn Write, found: &Domains, advice: &DomainsAdvice) -> fmt::Result {
+fn regions(out: &mut dyn Write, found: &Domains, pose: &Labels, advice: &DomainsAdvice) -> fmt::Result {
     let axes = found.window.axes();
     writeln!(out, "\nBasic regions (Def. 10)")?;
-    let vector = found.pose.clone().only(&axes);
-    let vector = vector.headings().map(|name| (name, Align::Right));
+    let free = pose.clone().only(&axes);
+    let vector = free.headings().map(|name| (name, Align::Right));
     let names = [right("region"), right(found.unit.name), right("solutions")];
     let last = [("image meets that of".into(), Align::Left)];
     let mut table = Table::new(names.into_iter().chain(vector).chain(last));
@@ -118,7 +123,8 @@ fn regions(out: &mut dyn Write, found: &Domains, advice: &DomainsAdvice) -> fmt:
             _ => None,
         });
         let meets = first_of(meets, 8);
-        table.row(first.into_iter().chain(axes.iter().map(|&k| brief(region.pose[k]))).chain([meets]));
+        let values: Vec<f64> = axes.iter().map(|&k| region.pose[k]).collect();
+        table.row(first.into_iter().chain(free.briefly(&values)).chain([meets]));
     }
     write!(out, "{table}")?;
     more(out, found.regions.len(), advice)?;
@@ -212,15 +218,15 @@ fn images(out: &mut dyn Write, found: &Domains, advice: &DomainsAdvice) -> fmt::
 }
 
 /// Where Theorem 2 does not hold, or nothing is known.
-fn failures(out: &mut dyn Write, found: &Domains) -> fmt::Result {
+fn failures(out: &mut dyn Write, found: &Domains, pose: &Labels) -> fmt::Result {
     for violation in found.violations.iter().take(LISTED) {
         let [a, b] = &violation.poses;
         writeln!(
             out,
             "Theorem 2 does not hold on region {}: {} and {} have the same joint vector",
             violation.region,
-            found.pose.brief(a),
-            found.pose.brief(b)
+            pose.brief(a),
+            pose.brief(b)
         )?;
     }
     if found.failed > 0 {
