@@ -2,6 +2,7 @@
 
 mod asked;
 mod beyond;
+mod budgets;
 mod degrees;
 mod postures;
 

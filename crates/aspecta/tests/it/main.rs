@@ -16,6 +16,7 @@ mod explore;
 mod follow;
 mod free_body;
 mod joint_ranges;
+mod many_limits;
 mod maps;
 mod motion;
 mod no_c;
