@@ -121,3 +121,30 @@ fn unknown_keys_are_refused() {
         assert!(error.contains("colour"), "{place} {error}");
     }
 }
+
+/// Divided by so much, a function is all but zero, and every leaf takes as long as one can take.
+#[test]
+fn scales_beyond_all_magnitudes_are_refused() {
+    let five_bar = undecided(&catalogue::find("five-bar").unwrap());
+    // Rows of det A are 10 and 16 long at most.
+    let mut forged = five_bar.clone();
+    forged.scale.det = 1e308;
+    let message = refusal(&forged);
+    let told = "scale.det = 1e308: a scale is the mean magnitude of a function";
+    assert!(
+        message.contains(told) && message.contains("positive numbers up to 1.6e11 are allowed"),
+        "{message}"
+    );
+    for change in [|scale: &mut Scale| scale.det = 1e12, |scale: &mut Scale| scale.reach[1] = 1e14] {
+        let mut forged = five_bar.clone();
+        change(&mut forged.scale);
+        assert!(refusal(&forged).contains("a scale is the mean magnitude"));
+    }
+    let mut limited = undecided(&catalogue::find("2-prr").unwrap());
+    limited.scale.limits[1][0] = 1e200;
+    assert!(refusal(&limited).contains("scale.limits[1][0] = 1e200"));
+    // What is only too large is slow, and right.
+    let mut slow = five_bar;
+    slow.scale.det = 1e6;
+    assert!(verdict(&slow).is_verified());
+}

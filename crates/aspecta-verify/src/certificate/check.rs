@@ -25,6 +25,19 @@ pub enum Unsound {
         /// Leaves of all sheets.
         leaves: usize,
     },
+    /// A scale far beyond what it is to be the mean magnitude of.
+    #[error(
+        "{key} = {value:e}: a scale is the mean magnitude of a function that bounds the aspects, and this function is far smaller wherever \
+         the robot is: positive numbers up to {most:e} are allowed"
+    )]
+    Scale {
+        /// The key.
+        key: String,
+        /// Its value.
+        value: f64,
+        /// The most that is allowed.
+        most: f64,
+    },
     /// Text that is not the encoding of a tree.
     #[error("sheet {sheet}: {error}")]
     Tree {
@@ -42,6 +55,7 @@ impl Certificate {
         self.check_window(n)?;
         self.check_modes(n)?;
         self.check_scale(n)?;
+        self.check_sizes()?;
         let classes = 2 * self.modes.len();
         wanted("claims", self.claims.len(), classes)?;
         self.check_sheets(classes)?;

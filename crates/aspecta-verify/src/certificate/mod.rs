@@ -3,6 +3,7 @@
 //! The file format is described in `docs/certificate.md`; [`crate`] checks it. Nothing in a certificate is to be believed.
 
 mod check;
+mod scale;
 mod tree;
 
 pub use check::Unsound;
