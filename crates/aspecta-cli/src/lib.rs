@@ -47,7 +47,8 @@ pub fn main() -> ExitCode {
 /// Arguments that are wrong, and requests for help, end the process, as clap has it.
 pub fn run(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> u8 {
     let cli = Cli::parse_from(arguments);
-    let mut out = BufWriter::new(io::stdout().lock());
+    // Not locked: an interrupt may have a document to end.
+    let mut out = BufWriter::new(io::stdout());
     let answer = cli.command.run(&mut out).and_then(|answer| {
         out.flush()?;
         Ok(answer)

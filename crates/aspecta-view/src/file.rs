@@ -6,23 +6,29 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use tempfile::{Builder, NamedTempFile};
 
-/// Creates a directory if need be and makes sure that files can be written into it: before long work, not
-/// after it.
+/// Makes sure that files can be written into a directory, which may be created for them: before long work,
+/// not after it. It is left as it was found: whether there will be files is not known yet.
 ///
 /// # Errors
 /// Those of the file system.
 pub fn writable(dir: &Path) -> io::Result<()> {
+    let is_new = |place: &&Path| !place.as_os_str().is_empty() && !place.exists();
+    let new: Vec<&Path> = dir.ancestors().take_while(is_new).collect();
     fs::create_dir_all(dir)?;
-    NamedTempFile::new_in(dir)?.close()
+    let tried = NamedTempFile::new_in(dir).and_then(NamedTempFile::close);
+    // What somebody has written into meanwhile stays.
+    new.into_iter().take_while(|place| fs::remove_dir(place).is_ok()).for_each(drop);
+    tried
 }
 
-/// Writes `content` into `dir` under a temporary name that nobody can guess, renames it to `name`, and returns
-/// the path. Links are followed, and what is there but no regular file (a device, a pipe) is written into as it
-/// is.
+/// Writes `content` into `dir`, which is created if need be, under a temporary name that nobody can guess,
+/// renames it to `name`, and returns the path. Links are followed, and what is there but no regular file (a
+/// device, a pipe) is written into as it is.
 ///
 /// # Errors
 /// Those of the file system, and a link that leads nowhere; then no file is left behind.
 pub fn put(dir: &Path, name: &str, content: impl AsRef<[u8]>) -> io::Result<PathBuf> {
+    fs::create_dir_all(dir)?;
     let path = dir.join(name);
     // What a link leads to.
     let place = if path.is_symlink() { fs::canonicalize(&path)? } else { path.clone() };

@@ -12,7 +12,6 @@ use aspecta::text::PathSummary;
 use aspecta_view::{Motion, figure_11, file};
 use clap::Args;
 use serde::Serialize;
-use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -75,9 +74,8 @@ impl CheckPath {
     }
 }
 
-/// Writes figure 11 and the motion into a directory, which is created if need be.
+/// Writes figure 11 and the motion into a directory.
 fn draw(directory: &Path, check: &PathCheck) -> io::Result<[PathBuf; 2]> {
-    fs::create_dir_all(directory)?;
     let robot = &check.robot;
     let motion = Motion::new(robot).then(check.mode, &check.profile).stopped_by(check.obstacle.as_ref());
     Ok([

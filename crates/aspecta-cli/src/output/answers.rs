@@ -1,7 +1,7 @@
 //! Prints what is found of the vectors a command is asked about: each as soon as it is found, however many
 //! there are.
 
-use super::{FORMAT_VERSION, Format, json};
+use super::{FORMAT_VERSION, Format, json, stream};
 use crate::failure::{Answer, Failure};
 use aspecta::robot::Robot;
 use serde::ser::SerializeSeq;
@@ -81,8 +81,11 @@ fn print_json<S: Shown>(
         let answer = &shown.json(&first);
         return json(&mut out, &One { about, answer, results: [answer] });
     }
+    stream::begin();
     let found = RefCell::new(iter::once(first).chain(found));
-    json(&mut out, &Many { about, results: Results { shown, found } })
+    json(&mut out, &Many { about, results: Results { shown, found } })?;
+    stream::done();
+    Ok(())
 }
 
 /// CSV: a header, and records with the line in front.
@@ -141,7 +144,9 @@ impl<T, I: Iterator<Item = Result<T, Failure>>> Iterator for UpToFailure<'_, I> 
             return None;
         }
         let flushed = self.out.0.borrow_mut().flush().map_err(Failure::from);
+        stream::wait();
         let next = flushed.and_then(|()| self.found.next().transpose());
+        stream::go_on();
         next.unwrap_or_else(|failure| {
             self.failure = Some(failure);
             None

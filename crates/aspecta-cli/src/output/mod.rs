@@ -1,6 +1,7 @@
 //! Output for people, scripts and spreadsheets.
 
 mod answers;
+pub mod stream;
 mod target;
 mod zeros;
 

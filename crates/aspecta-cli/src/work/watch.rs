@@ -2,7 +2,7 @@
 
 use crate::args::threads::Threads;
 use crate::failure::Failure;
-use crate::output::note;
+use crate::output::{note, stream};
 use aspecta::paving::{Control, Progress};
 use aspecta::robot::work::Stopwatch;
 use aspecta_view::file;
@@ -149,8 +149,9 @@ fn interrupts() -> Result<(), Failure> {
     ctrlc::set_handler(interrupted).map_err(|e| Failure::Input(format!("cannot watch for Ctrl-C: {e}")))
 }
 
-/// Ends the program, with no file half-written.
+/// Ends the program, with no file half-written and no document on stdout cut off.
 fn quit() -> ! {
+    stream::end();
     let _no_file_is_written = file::between_writes();
     process::exit(130)
 }

@@ -192,6 +192,34 @@ fn an_interrupt_ends_a_stream_at_once() {
     }
 }
 
+/// The list and the document are closed: what was answered can be read.
+#[cfg(unix)]
+#[test]
+fn an_interrupt_leaves_a_whole_document() {
+    if interrupts_are_ignored() {
+        return;
+    }
+    let (_directory, map) = map();
+    for command in ["ik five-bar", "state five-bar --mode ++", &format!("locate {map}")] {
+        let (mut child, mut stdin, mut stdout) = spawn(&format!("{command} --file - --json"));
+        stdin.write_all(b"4,7\n3,5\n").unwrap();
+        let mut text = String::new();
+        // The end of the first answer comes with the second.
+        while !text.ends_with("    },\n") {
+            assert_ne!(stdout.read_line(&mut text).unwrap(), 0, "{text}");
+        }
+        let interrupt = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+        assert!(interrupt.success());
+        stdout.read_to_string(&mut text).unwrap();
+        assert_eq!(child.wait().unwrap().code(), Some(130), "{command}");
+        drop(stdin);
+        let document: Value =
+            serde_json::from_str(&text).unwrap_or_else(|e| panic!("{command}: {e}\n{text}"));
+        assert_eq!(document["results"][0]["line"], 1);
+        assert!(!document["results"].as_array().unwrap().is_empty());
+    }
+}
+
 #[test]
 fn a_robot_file_that_is_too_large_is_refused() {
     let directory = tempfile::tempdir().unwrap();

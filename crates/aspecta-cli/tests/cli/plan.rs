@@ -219,3 +219,18 @@ fn mistakes_are_named() {
         assert!(message.contains(complaint), "{arguments}: {message}");
     }
 }
+
+/// A directory for what is not written is not made.
+#[test]
+fn a_refusal_leaves_no_directory() {
+    let directory = tempfile::tempdir().unwrap();
+    let out = directory.path().join("a/b");
+    let plan = |to: &str| {
+        let arguments = format!("plan five-bar --from 4,7 --to {to} --mode ++ --out {}", out.display());
+        output(&arguments).status.code()
+    };
+    assert_eq!(plan("4,-7"), Some(1));
+    assert_eq!(std::fs::read_dir(directory.path()).unwrap().count(), 0);
+    assert_eq!(plan("4.1,7"), Some(0));
+    assert!(out.join("motion.html").is_file());
+}
