@@ -4,7 +4,7 @@ use crate::args::planning::Planning;
 use crate::args::robot::RobotArg;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
-use crate::output::{FORMAT_VERSION, Format, Labels, json, note, number};
+use crate::output::{About, Format, Labels, json, note, number};
 use crate::show::numbered::{self, IN_ONE, Numbered, list};
 use crate::show::{joined, motion};
 use crate::work::planning::{Planned, may_be_finer, plan_over_roadmap, route};
@@ -54,8 +54,8 @@ Exit status: 0 listed, or planned; 1 no such change (it says whether that is pro
 
 #[derive(Serialize)]
 struct Document<'a> {
-    format_version: u32,
-    robot: &'a str,
+    #[serde(flatten)]
+    about: About<'a>,
     #[serde(flatten)]
     found: &'a AssemblyModes,
 }
@@ -167,8 +167,7 @@ impl Assembly {
         let Some(change) = &found.change else {
             match self.planning.shown.format() {
                 Format::Json => {
-                    let (format_version, robot) = (FORMAT_VERSION, robot.name.as_str());
-                    json(out, &Document { format_version, robot, found: &found.modes })?;
+                    json(out, &Document { about: About::of(robot), found: &found.modes })?;
                 }
                 Format::Csv => {
                     let id = |s: &AssemblyMode| s.aspect.map(|id| id.to_string());

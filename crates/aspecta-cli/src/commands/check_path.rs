@@ -6,7 +6,7 @@ use crate::args::out::OutDir;
 use crate::args::path::PathArgs;
 use crate::failure::{Answer, Failure};
 use crate::input::Columns;
-use crate::output::{FORMAT_VERSION, Format, exact, json};
+use crate::output::{About, Format, exact, json};
 use aspecta::motion::PathCheck;
 use aspecta::text::PathSummary;
 use aspecta_view::{Motion, figure_11, file};
@@ -40,8 +40,8 @@ pub struct CheckPath {
 
 #[derive(Serialize)]
 struct Document<'a> {
-    format_version: u32,
-    robot: &'a str,
+    #[serde(flatten)]
+    about: About<'a>,
     #[serde(flatten)]
     check: &'a PathCheck,
 }
@@ -58,8 +58,7 @@ impl CheckPath {
         let format = self.format.beside(self.path.deg);
         match format {
             Format::Json => {
-                let robot = &check.robot.name;
-                json(out, &Document { format_version: FORMAT_VERSION, robot, check: &check })?;
+                json(out, &Document { about: About::of(&check.robot), check: &check })?;
             }
             Format::Csv => print_profile(out, &check)?,
             Format::Table => {

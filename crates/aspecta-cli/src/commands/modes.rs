@@ -6,7 +6,7 @@ use crate::args::out::OutDir;
 use crate::args::planning::Analysing;
 use crate::args::robot::RobotArg;
 use crate::failure::{Answer, Failure};
-use crate::output::{Align, FORMAT_VERSION, Labels, Table, brief, json, note};
+use crate::output::{About, Align, Labels, Table, brief, json, note};
 use crate::show::groups::AS_FAR;
 use aspecta::aspect::{AspectId, Count};
 use aspecta::motion::modes::ModeGraph;
@@ -44,8 +44,8 @@ Exit status: 0 done; 1 stopped before all crossings were looked for; 2 bad input
 
 #[derive(Serialize)]
 struct Document<'a> {
-    format_version: u32,
-    robot: &'a str,
+    #[serde(flatten)]
+    about: About<'a>,
     #[serde(flatten)]
     graph: &'a ModeGraph,
 }
@@ -57,7 +57,7 @@ impl Modes {
         let graph =
             self.analysing.with(&robot, &[], |analysis, control| Ok(ModeGraph::new(analysis, control)))?;
         if self.shown.json() {
-            json(out, &Document { format_version: FORMAT_VERSION, robot: &robot.name, graph: &graph })?;
+            json(out, &Document { about: About::of(&robot), graph: &graph })?;
         } else {
             print(out, &robot, &graph, self.shown.deg)?;
         }

@@ -4,7 +4,7 @@ use crate::args::format::FormatArgs;
 use crate::args::path::PathArgs;
 use crate::args::rate::Rate;
 use crate::failure::{Answer, Failure};
-use crate::output::{FORMAT_VERSION, Format, Labels, json, note, number};
+use crate::output::{About, Format, Labels, json, note, number};
 use crate::work::timing;
 use aspecta::motion::time::{Binding, JointLimits, Limited, Row, Trajectory, trajectory};
 use aspecta::motion::{Joined, Obstacle, PathCheck};
@@ -42,8 +42,8 @@ pub struct Time {
 
 #[derive(Serialize)]
 struct Document<'a> {
-    format_version: u32,
-    robot: &'a str,
+    #[serde(flatten)]
+    about: About<'a>,
     mode: String,
     sound: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -130,8 +130,7 @@ impl Time {
             rows: motion.rows(self.rate.rate).collect(),
         });
         Document {
-            format_version: FORMAT_VERSION,
-            robot: &check.robot.name,
+            about: About::of(&check.robot),
             mode: check.mode.to_string(),
             sound: check.is_sound(),
             obstacle: check.obstacle.as_ref(),

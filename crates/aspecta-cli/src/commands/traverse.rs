@@ -8,7 +8,7 @@ use crate::args::planning::Analysing;
 use crate::args::robot::RobotArg;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
-use crate::output::{Align, FORMAT_VERSION, Labels, Table, json, note};
+use crate::output::{About, Align, Labels, Table, json, note};
 use crate::show::groups::AS_FAR;
 use crate::work::mapping::Source;
 use crate::work::watch::abandoned_if_cancelled;
@@ -94,8 +94,8 @@ Exit status: 0 some aspect (or, with --through-modes, some group of aspects) hol
 
 #[derive(Serialize)]
 struct Document<'a> {
-    format_version: u32,
-    robot: &'a str,
+    #[serde(flatten)]
+    about: About<'a>,
     #[serde(flatten)]
     found: &'a Traversability,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -141,8 +141,8 @@ impl Traverse {
         found.classes.retain(is_asked);
         let domains = map.as_ref().map(|map| domains_of(map, &found));
         if self.shown.json() {
-            let (format_version, robot) = (FORMAT_VERSION, robot.name.as_str());
-            json(out, &Document { format_version, robot, found: &found, uniqueness: domains.as_deref() })?;
+            let about = About::of(&robot);
+            json(out, &Document { about, found: &found, uniqueness: domains.as_deref() })?;
         } else {
             print(out, &robot, &found, self.shown.deg)?;
             if self.through_modes {

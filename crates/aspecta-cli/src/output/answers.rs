@@ -1,7 +1,7 @@
 //! Prints what is found of the vectors a command is asked about: each as soon as it is found, however many
 //! there are.
 
-use super::{FORMAT_VERSION, Format, json, stream};
+use super::{About, Format, json, stream};
 use crate::failure::{Answer, Failure};
 use aspecta::robot::Robot;
 use serde::ser::SerializeSeq;
@@ -70,13 +70,7 @@ fn print_json<S: Shown>(
     found: &mut dyn Iterator<Item = S::Found>,
 ) -> Result<(), Failure> {
     let Some(first) = found.next() else { return Ok(()) };
-    let robot = shown.robot();
-    let about = About {
-        format_version: FORMAT_VERSION,
-        robot: &robot.name,
-        length_unit: &robot.length_unit,
-        angle_unit: "rad",
-    };
+    let about = About::of(shown.robot());
     if shown.line(&first).is_none() {
         let answer = &shown.json(&first);
         return json(&mut out, &One { about, answer, results: [answer] });
@@ -165,14 +159,6 @@ impl Write for &Shared<'_> {
     fn flush(&mut self) -> io::Result<()> {
         self.0.borrow_mut().flush()
     }
-}
-
-#[derive(Serialize)]
-struct About<'a> {
-    format_version: u32,
-    robot: &'a str,
-    length_unit: &'a str,
-    angle_unit: &'static str,
 }
 
 #[derive(Serialize)]

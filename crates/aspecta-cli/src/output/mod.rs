@@ -1,10 +1,12 @@
 //! Output for people, scripts and spreadsheets.
 
+mod about;
 mod answers;
 pub mod stream;
 mod target;
 mod zeros;
 
+pub use about::About;
 pub use answers::{Shown, print_each};
 pub use aspecta::text::{Align, Labels, Table, brief, det_a_unit, number, unsigned};
 pub use target::Target;

@@ -3,7 +3,7 @@
 use super::numbered::{self, IN_ONE, Numbered, list};
 use crate::args::format::ShownArgs;
 use crate::failure::{Answer, Failure};
-use crate::output::{FORMAT_VERSION, Format, json};
+use crate::output::{About, Format, json};
 use aspecta::motion::explore::{JoinedSolutions, SharedClass};
 use aspecta::robot::Robot;
 use aspecta_view::words::count;
@@ -12,8 +12,8 @@ use std::io::Write;
 
 #[derive(Serialize)]
 struct Document<'a> {
-    format_version: u32,
-    robot: &'a str,
+    #[serde(flatten)]
+    about: About<'a>,
     #[serde(flatten)]
     found: &'a JoinedSolutions,
 }
@@ -27,7 +27,7 @@ pub fn print(
 ) -> Result<Answer, Failure> {
     match shown.format() {
         Format::Json => {
-            json(out, &Document { format_version: FORMAT_VERSION, robot: &robot.name, found })?;
+            json(out, &Document { about: About::of(robot), found })?;
         }
         Format::Csv => numbered::print_csv(out, robot, "joined_set", &numbered(found))?,
         Format::Table => print_list(out, robot, found, shown.deg)?,

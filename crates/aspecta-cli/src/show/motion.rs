@@ -3,7 +3,7 @@
 use crate::args::planning::Planning;
 use crate::failure::{Answer, Failure};
 use crate::input::Columns;
-use crate::output::{FORMAT_VERSION, Format, exact, json, note};
+use crate::output::{About, Format, exact, json, note};
 use crate::work::planning::Planned;
 use aspecta::motion::PathCheck;
 use aspecta::motion::modes::{NoRoute, Route};
@@ -16,8 +16,8 @@ use std::io::Write;
 
 #[derive(Serialize)]
 struct Document<'a> {
-    format_version: u32,
-    robot: &'a str,
+    #[serde(flatten)]
+    about: About<'a>,
     #[serde(flatten)]
     route: Option<&'a Route>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -44,13 +44,7 @@ pub fn print(
     Planning { moving, shown, .. }: &Planning,
 ) -> Result<Answer, Failure> {
     let (format, name) = (shown.format(), &robot.name);
-    let mut document = Document {
-        format_version: FORMAT_VERSION,
-        robot: name,
-        route: None,
-        checks: Vec::new(),
-        refusal: None,
-    };
+    let mut document = Document { about: About::of(robot), route: None, checks: Vec::new(), refusal: None };
     match &planned.result {
         Err(refusal) if refusal.is_bad_input() => Err(Failure::Input(refusal.to_string())),
         Err(refusal) => {

@@ -150,3 +150,30 @@ fn schema_is_json() {
     let schema = json("schema");
     assert!(schema["$schema"].as_str().unwrap().starts_with("https://json-schema.org/"));
 }
+
+/// Whatever is told of paths and motions has the units in front.
+#[test]
+fn paths_and_motions_name_their_units() {
+    let path = "-15.468,0.781,0.073\n-15.468,0.7,0.08\n";
+    for command in [
+        "check-path 3-rrr - --mode +++ --json",
+        "time 3-rrr - --mode +++ --speed 2 --acceleration 10 --rate 1 --json",
+        "plan 3-rrr --from -15.468,0.781,0.073 --to -15.468,0.7,0.08 --mode +++ --json",
+        "plan five-bar --from 4,7 --to 4,-7 --mode ++ --json",
+        "traverse five-bar --box 3.9:4.1,6.9:7.1 --json",
+        "modes five-bar --budget depth=6 --json",
+        "assembly five-bar --q 1,2 --json",
+    ] {
+        let run = crate::aspecta(command).write_stdin(path).output().unwrap();
+        let text = String::from_utf8(run.stdout).unwrap();
+        let document: Value = serde_json::from_str(&text).unwrap_or_else(|e| panic!("{command}: {e}"));
+        assert_eq!(
+            (&document["length_unit"], &document["angle_unit"]),
+            (&"unit".into(), &"rad".into()),
+            "{command}"
+        );
+        assert!(
+            document["robot"].is_string() && text.starts_with("{\n  \"format_version\": 1,\n  \"robot\"")
+        );
+    }
+}
