@@ -221,8 +221,12 @@ fn print_one(
     degrees: bool,
     matrices: bool,
 ) -> Result<(), Failure> {
-    let serial = if s.mode.is_none() { " (0: serial singularity)" } else { "" };
-    writeln!(out, "\nworking mode  {}{serial}", mode(s))?;
+    let meaning = match s.mode.map(|mode| robot.mode_in_words(mode)) {
+        None => " (0: serial singularity)".to_owned(),
+        Some(None) => String::new(),
+        Some(Some(names)) => format!(" ({names})"),
+    };
+    writeln!(out, "\nworking mode  {}{meaning}", mode(s))?;
     let beyond = of_state(robot, s);
     let limits =
         if beyond.is_empty() { String::new() } else { format!(" (beyond limits: {})", beyond.join(", ")) };

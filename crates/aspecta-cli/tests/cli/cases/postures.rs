@@ -58,3 +58,13 @@ fn names_that_are_none_are_told_which_there_are() {
     let struts = stderr("ik 3-rpr --pose 1,2,0 --mode left,left,left");
     assert!(struts.trim_end().ends_with("it has ---"), "{struts}");
 }
+
+/// `state` tells a mode by its signs and by the names of its postures, as `--mode` takes both.
+#[test]
+fn the_mode_of_a_state_has_a_name() {
+    let state = stdout("state five-bar --pose 4,7 --mode +-");
+    assert!(state.contains("\nworking mode  +- (left,right)\n"), "{state}");
+    assert_eq!(stdout("state five-bar --pose 4,7 --mode left,right"), state);
+    let struts = stdout("state 3-rpr --pose 5,10,0.3");
+    assert!(struts.contains("\nworking mode  ---\n"), "{struts}");
+}
