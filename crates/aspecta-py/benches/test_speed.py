@@ -57,7 +57,11 @@ def test_fk_of_the_five_bar_by_pinocchio(benchmark: Any) -> None:
         at = np.array([9.0 if name == "q2" else along, 0, 0])
         ids[name] = model.addJoint(ids[parent], pinocchio.JointModelRZ(), pinocchio.SE3(np.eye(3), at), name)
     tips = [
-        model.addFrame(pinocchio.Frame(name, ids[name], pinocchio.SE3(np.eye(3), np.array([links[name][1], 0, 0])), pinocchio.OP_FRAME))
+        model.addFrame(
+            pinocchio.Frame(
+                name, ids[name], pinocchio.SE3(np.eye(3), np.array([links[name][1], 0, 0])), pinocchio.OP_FRAME
+            )
+        )
         for name in ("p1", "p2")
     ]
     data = model.createData()
@@ -76,11 +80,19 @@ def test_fk_of_the_five_bar_by_pinocchio(benchmark: Any) -> None:
             if np.abs(gap).max() < 1e-10:
                 return data.oMf[tips[0]].translation[:2]
             world = pinocchio.LOCAL_WORLD_ALIGNED
-            jacobian = (pinocchio.getFrameJacobian(model, data, tips[0], world) - pinocchio.getFrameJacobian(model, data, tips[1], world))[:2]
+            jacobian = (
+                pinocchio.getFrameJacobian(model, data, tips[0], world)
+                - pinocchio.getFrameJacobian(model, data, tips[1], world)
+            )[:2]
             q[passive] -= np.linalg.solve(jacobian[:, passive], gap)
         raise AssertionError("Newton's method does not converge")
 
     # The passive joints at the pose (4, 7), a little off.
-    elbows = np.array([8 * np.cos(start.q[0]), 8 * np.sin(start.q[0])]), np.array([9 + 5 * np.cos(start.q[1]), 5 * np.sin(start.q[1])])
-    guess = [np.arctan2(*(start.pose - elbow)[::-1]) - motor + 0.05 for elbow, motor in zip(elbows, start.q, strict=True)]
+    elbows = (
+        np.array([8 * np.cos(start.q[0]), 8 * np.sin(start.q[0])]),
+        np.array([9 + 5 * np.cos(start.q[1]), 5 * np.sin(start.q[1])]),
+    )
+    guess = [
+        np.arctan2(*(start.pose - elbow)[::-1]) - motor + 0.05 for elbow, motor in zip(elbows, start.q, strict=True)
+    ]
     assert np.allclose(benchmark(solve), [4, 7])

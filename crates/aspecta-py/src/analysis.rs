@@ -86,7 +86,7 @@ impl Analysis {
         Ok(threads::detached(py, || aspecta_view::write_report(&self.0, &directory))?)
     }
 
-    /// The map of some aspects, and the exception that ended its making early.
+    /// The map of some aspects.
     fn domains(
         &self,
         py: Python<'_>,
@@ -94,7 +94,7 @@ impl Analysis {
         cells: Option<usize>,
         samples: Option<usize>,
         progress: Option<Bound<'_, PyAny>>,
-    ) -> PyResult<(Option<Map>, Option<PyErr>)> {
+    ) -> PyResult<Py<PyAny>> {
         let analysis = Arc::clone(&self.0);
         let usual = DomainOptions::usual(&analysis.robot, analysis.window.axes().len());
         let options =
@@ -111,8 +111,7 @@ impl Analysis {
             }
             Ok(aspecta::Map::new(&analysis, sheets))
         })?;
-        let map = found.result.transpose().map_err(error::of)?;
-        Ok((map.map(Map::from), found.interrupted))
+        found.or_partial(py, |map| Ok(Map::from(map.map_err(error::of)?)))
     }
 
     /// The graph of aspects and changes of mode, as JSON.

@@ -37,6 +37,8 @@ mod _native {
     #[pymodule_export]
     use super::robot::Robot;
     #[pymodule_export]
+    use super::watch::Partial;
+    #[pymodule_export]
     use super::{catalogue, run_command, schema};
 
     /// The version of the package.

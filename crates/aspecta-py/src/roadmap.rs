@@ -18,13 +18,12 @@ pub fn explore(
     modes: Vec<String>,
     effort: (usize, Option<f64>),
     progress: Option<Bound<'_, PyAny>>,
-) -> PyResult<(Option<String>, Option<PyErr>)> {
+) -> PyResult<Py<PyAny>> {
     let modes = modes.iter().map(|mode| robot.mode(mode)).collect::<PyResult<Vec<_>>>()?;
     let (robot, effort) = (Arc::clone(&robot.robot), Effort { samples: effort.0, seconds: effort.1 });
     let found =
         watched(py, progress.as_ref(), move |control| roadmap::explore(&robot, &modes, &effort, control))?;
-    let json = found.result.map(|found| error::json(&found.map_err(error::of)?)).transpose()?;
-    Ok((json, found.interrupted))
+    found.or_partial(py, |found| error::json(&found.map_err(error::of)?))
 }
 
 /// Which direct solutions of a joint vector of a free body are joined by proved motions: JSON.

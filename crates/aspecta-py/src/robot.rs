@@ -89,6 +89,22 @@ impl Robot {
         self.robot.working_modes().iter().map(ToString::to_string).collect()
     }
 
+    /// The signs of a working mode, which may be given by the names of its postures.
+    fn signs(&self, mode: &str) -> PyResult<String> {
+        Ok(self.mode(mode)?.to_string())
+    }
+
+    /// A mode by the names of its postures, if any leg has one with a name.
+    fn words(&self, mode: &str) -> PyResult<Option<String>> {
+        Ok(self.robot.mode_in_words(self.mode(mode)?))
+    }
+
+    /// The names of the limits that the robot goes beyond at a pose, in a mode.
+    fn beyond(&self, pose: Vec<f64>, mode: &str) -> PyResult<Vec<String>> {
+        let broken = self.robot.broken_limits(&pose, self.mode(mode)?).map_err(error::of)?;
+        Ok(broken.into_iter().map(|bound| bound.named(&self.robot)).collect())
+    }
+
     /// The robot as it was understood, as JSON.
     fn json(&self) -> PyResult<String> {
         error::json(&*self.robot)
@@ -153,7 +169,7 @@ impl Robot {
         error::json(&self.robot.state(&pose, &q).map_err(error::of)?)
     }
 
-    /// The analysis of the robot or of a slice, and the exception that ended it early.
+    /// The analysis of the robot or of a slice.
     #[pyo3(signature = (fix, modes, seconds, boxes, depth, resolution, certificate, progress))]
     #[expect(clippy::too_many_arguments, reason = "the keywords of Python's `analyze`, which calls it")]
     fn analyze(
@@ -167,15 +183,14 @@ impl Robot {
         resolution: Option<f64>,
         certificate: bool,
         progress: Option<Bound<'_, PyAny>>,
-    ) -> PyResult<(Option<Analysis>, Option<PyErr>)> {
+    ) -> PyResult<Py<PyAny>> {
         let modes = modes.iter().map(|mode| self.mode(mode)).collect::<PyResult<Vec<_>>>()?;
         let options =
             Options { budget: Budget { seconds, boxes, depth, resolution }, fix, modes, certificate };
         let robot = Arc::clone(&self.robot);
         let found =
             watched(py, progress.as_ref(), move |control| aspecta::analyze(&robot, &options, control))?;
-        let analysis = found.result.transpose().map_err(error::of)?;
-        Ok((analysis.map(Analysis::from), found.interrupted))
+        found.or_partial(py, |analysis| Ok(Analysis::from(analysis.map_err(error::of)?)))
     }
 
     /// The path that goes straight from pose to pose, or nearly, as [`Analysis::plan`](crate::analysis) returns
@@ -210,16 +225,19 @@ impl Robot {
 }
 
 impl Robot {
-    /// A working mode by its signs.
-    pub fn mode(&self, signs: &str) -> PyResult<WorkingMode> {
-        let mode: WorkingMode = signs.parse().map_err(error::of)?;
-        if mode.legs() != self.robot.dof() {
-            let (name, dof) = (&self.robot.name, self.robot.dof());
-            return Err(error::Error::new_err(format!(
-                "`{signs}`: a working mode of `{name}` has {dof} signs"
-            )));
-        }
-        Ok(mode)
+    /// A working mode by its signs, or by the names of its postures.
+    pub fn mode(&self, text: &str) -> PyResult<WorkingMode> {
+        self.robot.working_mode(text).ok_or_else(|| {
+            let names: Vec<_> = self.robot.working_modes().iter().map(WorkingMode::to_string).collect();
+            let words = self.robot.postures_in_words();
+            let by_name =
+                words.map_or(String::new(), |w| format!("; or a name for each leg, with commas: {w}"));
+            error::Error::new_err(format!(
+                "mode: `{text}` is not a working mode of `{}`; it has {}{by_name}",
+                self.robot.name,
+                names.join(", ")
+            ))
+        })
     }
 
     /// Solves every row of an array, on all threads.

@@ -3,18 +3,18 @@
 use crate::threads;
 use aspecta::Control;
 use aspecta::robot::work::Progress;
+use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
+use pyo3::sync::MutexExt;
 use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{self, RecvTimeoutError};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
 /// How often signals are looked for and progress is told.
 const TICK: Duration = Duration::from_millis(50);
-/// How long interrupted work is waited for: some can give what it has so far, some has to be left alone.
-const GRACE: Duration = Duration::from_millis(100);
 
 /// What the work and its watch share.
 #[derive(Default)]
@@ -30,26 +30,83 @@ impl Shared {
 }
 
 /// The outcome of work that was watched.
-pub struct Watched<T> {
-    /// The result; `None` if it was interrupted and has none.
-    pub result: Option<T>,
-    /// The exception that interrupted it: `KeyboardInterrupt`, or one that `progress` raised.
-    pub interrupted: Option<PyErr>,
+pub enum Watched<T> {
+    /// Its result.
+    Done(T),
+    /// The exception that interrupted it, `KeyboardInterrupt` or one that `progress` raised; what it has so far
+    /// is still to come.
+    Interrupted(PyErr, Receiver<T>),
 }
 
-impl<T> Watched<T> {
+impl<T: Send + 'static> Watched<T> {
     /// The result, or the exception.
     pub fn whole(self) -> PyResult<T> {
-        match (self.interrupted, self.result) {
-            (Some(interrupted), _) => Err(interrupted),
-            (None, Some(result)) => Ok(result),
-            (None, None) => unreachable!("work that nothing interrupts has a result"),
+        match self {
+            Self::Done(result) => Ok(result),
+            Self::Interrupted(exception, _) => Err(exception),
+        }
+    }
+
+    /// The result as `convert` hands it to Python; or the exception, whose `partial` is a [`Partial`].
+    pub fn or_partial<R>(
+        self,
+        py: Python<'_>,
+        convert: impl Fn(T) -> PyResult<R> + Send + 'static,
+    ) -> PyResult<Py<PyAny>>
+    where
+        R: for<'py> IntoPyObject<'py>,
+    {
+        match self {
+            Self::Done(result) => convert(result)?.into_py_any(py),
+            Self::Interrupted(exception, mut results) => {
+                let poll = move |py: Python<'_>| {
+                    let coming = &mut results;
+                    match py.detach(move || coming.recv_timeout(TICK)) {
+                        Ok(result) => Ok(Some(convert(result)?.into_py_any(py)?)),
+                        Err(RecvTimeoutError::Timeout) => Ok(None),
+                        Err(RecvTimeoutError::Disconnected) => Ok(Some(py.None())),
+                    }
+                };
+                let partial = Partial(Mutex::new(Coming::Later(Box::new(poll))));
+                exception.value(py).setattr("partial", Py::new(py, partial)?)?;
+                Err(exception)
+            }
+        }
+    }
+}
+
+/// The result of work that was interrupted, as far as it came.
+#[pyclass(frozen, module = "aspecta._native")]
+pub struct Partial(Mutex<Coming>);
+
+/// Waits a moment for the result.
+type Poll = Box<dyn FnMut(Python<'_>) -> PyResult<Option<Py<PyAny>>> + Send>;
+
+enum Coming {
+    Later(Poll),
+    Here(Py<PyAny>),
+}
+
+#[pymethods]
+impl Partial {
+    /// Returns the result so far, and waits for the step that was under way; None if there is none.
+    fn wait(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        let mut coming = self.0.lock_py_attached(py).unwrap_or_else(PoisonError::into_inner);
+        loop {
+            let poll = match &mut *coming {
+                Coming::Here(result) => return Ok(result.clone_ref(py)),
+                Coming::Later(poll) => poll,
+            };
+            if let Some(result) = poll(py)? {
+                *coming = Coming::Here(result);
+            }
+            py.check_signals()?;
         }
     }
 }
 
 /// Does work on a thread of its own, with no lock on the interpreter. `progress(stage, done, total)` is called
-/// now and then, on the thread that waits.
+/// now and then, on the thread that waits. Work that is interrupted is told to stop, and left to itself.
 pub fn watched<T: Send + 'static>(
     py: Python<'_>,
     progress: Option<&Bound<'_, PyAny>>,
@@ -65,15 +122,10 @@ pub fn watched<T: Send + 'static>(
         // Nobody may be waiting any more.
         drop(done.send(result));
     })?;
-    let mut interrupted = None;
     loop {
-        let patience = if interrupted.is_some() { GRACE } else { TICK };
         let coming = &mut results;
-        match py.detach(move || coming.recv_timeout(patience)) {
-            Ok(result) => return Ok(Watched { result: Some(result), interrupted }),
-            Err(RecvTimeoutError::Timeout) if interrupted.is_some() => {
-                return Ok(Watched { result: None, interrupted });
-            }
+        match py.detach(move || coming.recv_timeout(TICK)) {
+            Ok(result) => return Ok(Watched::Done(result)),
             Err(RecvTimeoutError::Timeout) => {}
             Err(RecvTimeoutError::Disconnected) => match worker.join() {
                 Err(panic) => resume_unwind(panic),
@@ -82,7 +134,7 @@ pub fn watched<T: Send + 'static>(
         }
         if let Err(exception) = py.check_signals().and_then(|()| tell(progress, shared.latest())) {
             shared.cancelled.store(true, Ordering::Relaxed);
-            interrupted = Some(exception);
+            return Ok(Watched::Interrupted(exception, results));
         }
     }
 }

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import answer, command
 
 import aspecta
+from conftest import answer, command
 
 matplotlib = pytest.importorskip("matplotlib")
 matplotlib.use("Agg")
@@ -33,7 +33,10 @@ def test_slices_modes_and_budgets() -> None:
     robot = aspecta.Robot("3-rrr")
     found = robot.analyze(fix={"phi": 0.0}, modes=["+++", "++-"], depth=6)
     told = answer("analyze", "3-rrr", "--fix", "phi=0", "--mode", "+++,++-", "--budget", "depth=6")
-    assert found.classes == told["classes"] and (found.low, found.high) == (told["aspects"]["low"], told["aspects"]["high"])
+    assert found.classes == told["classes"] and (found.low, found.high) == (
+        told["aspects"]["low"],
+        told["aspects"]["high"],
+    )
     with pytest.raises(aspecta.Error, match="`psi` is none of x, y, phi"):
         robot.analyze(fix={"psi": 0})
     with pytest.raises(aspecta.Error, match="up to 3 free coordinates"):
@@ -41,7 +44,12 @@ def test_slices_modes_and_budgets() -> None:
 
 
 def test_aspects_at_a_pose(analysis: aspecta.Analysis) -> None:
-    assert [(a.id, a.mode, a.det_a) for a in analysis.at([4, 7])] == [(1, "++", "+"), (3, "+-", "+"), (6, "--", "+"), (10, "-+", "-")]
+    assert [(a.id, a.mode, a.det_a) for a in analysis.at([4, 7])] == [
+        (1, "++", "+"),
+        (3, "+-", "+"),
+        (6, "--", "+"),
+        (10, "-+", "-"),
+    ]
     assert [a.id for a in analysis.at([4, 7], mode="--")] == [6]
     assert analysis.at([40, 7]) == []
 
@@ -106,7 +114,9 @@ def test_a_plan_of_a_free_body() -> None:
     assert plan.proved and robot.check_path(plan.waypoints, mode="------").sound
 
 
-def test_modes_traverse_and_assembly_are_those_of_the_command_line(analysis: aspecta.Analysis, five_bar: aspecta.Robot) -> None:
+def test_modes_traverse_and_assembly_are_those_of_the_command_line(
+    analysis: aspecta.Analysis, five_bar: aspecta.Robot
+) -> None:
     graph = analysis.modes()
     assert len(graph.crossings) == 12 and graph._repr_svg_().startswith("<svg")
     held = analysis.traverse(box=[[2, 6], [8, 10]])
@@ -147,7 +157,9 @@ def test_cusps_and_exploration() -> None:
     told = answer("cusps", "3-rpr", "--fix", "q1=14.98")
     assert cusps.to_dict()["cusps"] == told["cusps"] and cusps.complete
     explored = aspecta.Robot("gough-stewart").explore(samples=50)
-    assert explored.to_dict() == {k: v for k, v in answer("explore", "gough-stewart", "--samples", "50").items() if k != "format_version"}
+    assert explored.to_dict() == {
+        k: v for k, v in answer("explore", "gough-stewart", "--samples", "50").items() if k != "format_version"
+    }
 
 
 def test_pictures_and_reports(analysis: aspecta.Analysis, tmp_path: Path) -> None:

@@ -4,9 +4,9 @@ import pickle
 
 import numpy as np
 import pytest
-from conftest import answer
 
 import aspecta
+from conftest import answer
 
 TABLE_4 = [[-15.468, 0.781, 0.073], [-15.468, -7.091, 0.5], [-9.902, -7.091, 1.081]]
 

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import CATALOGUE, command
 
 import aspecta
 from aspecta import poses
+from conftest import CATALOGUE, command
 
 LEG = {"actuator": {"kind": "revolute", "crank": 8, "rod": 5}}
 
@@ -47,9 +47,25 @@ def test_an_array_that_does_not_fit_is_refused(five_bar: aspecta.Robot) -> None:
         five_bar.ik([1, 2, 3])
     with pytest.raises(aspecta.Error, match="row 1: pose coordinate 2 is NaN"):
         five_bar.ik([[4, 7], [4, np.nan]])
-    with pytest.raises(aspecta.Error, match="no working mode"):
+    with pytest.raises(aspecta.Error, match=r"not a working mode of `five-bar`.*left"):
         five_bar.ik([4, 7], mode="+++")
     assert len(five_bar.ik(np.empty((0, 2)))) == 0
+
+
+def test_postures_have_names(five_bar: aspecta.Robot) -> None:
+    assert (
+        five_bar.mode_in_words("+-") == "left,right" and aspecta.Robot("gough-stewart").mode_in_words("------") is None
+    )
+    assert [s.mode for s in five_bar.ik([4, 7], mode="left,right")] == ["+-"]
+    plan = five_bar.plan([4, 7], [5, 6], mode="left,left")
+    assert plan.stretches[0]["mode"] == "++"
+
+
+def test_limits_that_are_broken_are_named() -> None:
+    leg = {"anchor": [0, 0], **LEG, "limits": {"actuator": {"deg": [-10, 10]}}}
+    robot = aspecta.Robot(platform="plane-point", legs=[leg, {"anchor": [9, 0], **LEG}], window={"y": [-20, 6]})
+    assert not robot.ik([4, 7])[0].within_limits
+    assert len(robot.limits_beyond([4, 7], "++")) == 2
 
 
 def test_degrees_taken_for_radians_are_warned_of() -> None:

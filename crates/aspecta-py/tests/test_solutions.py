@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from conftest import CATALOGUE, answer
 
 import aspecta
+from conftest import CATALOGUE, answer
 
 POSES = {
     "five-bar": [4, 7],

@@ -13,6 +13,7 @@ The theory is Chablat & Wenger, *Mechanism and Machine Theory* 36(6), 2001.
 """
 
 from aspecta import _native
+from aspecta._input import UnitWarning
 from aspecta._native import Error, NoPlan
 from aspecta.analysis import Analysis, Aspect
 from aspecta.certificates import Certificate, verify
@@ -31,7 +32,7 @@ from aspecta.results import (
     Traversability,
     Verdict,
 )
-from aspecta.robot import Robot, UnitWarning
+from aspecta.robot import Robot
 from aspecta.solutions import Solution, SolutionList, Solutions
 
 __version__ = _native.VERSION

@@ -79,18 +79,20 @@ def _cells(ax: Axes, lo: Any, hi: Any, number: int, label: str | None) -> None:
     from matplotlib.collections import PolyCollection
 
     if lo.shape[1] > 2:
-        raise _native.Error("three coordinates vary: cut at one of them, such as at={\"phi\": 0}")
+        raise _native.Error('three coordinates vary: cut at one of them, such as at={"phi": 0}')
     if lo.shape[1] == 1:
         one = np.ones(len(lo))
         lo, hi = np.column_stack([lo, (number - 0.4) * one]), np.column_stack([hi, (number + 0.4) * one])
-    corners = np.stack(
-        [lo, np.column_stack([hi[:, 0], lo[:, 1]]), hi, np.column_stack([lo[:, 0], hi[:, 1]])], axis=1
-    )
+    corners = np.stack([lo, np.column_stack([hi[:, 0], lo[:, 1]]), hi, np.column_stack([lo[:, 0], hi[:, 1]])], axis=1)
     colour = _colour(number) if number else _GREY
-    ax.add_collection(PolyCollection(list(corners), facecolor=colour, edgecolor="none", alpha=0.6 if number else 1, label=label))
+    ax.add_collection(
+        PolyCollection(list(corners), facecolor=colour, edgecolor="none", alpha=0.6 if number else 1, label=label)
+    )
 
 
-def _images(ax: Axes, analysis: Analysis, mode: str, lo: Any, hi: Any, number: int, label: str | None, at: Mapping[str, float]) -> None:
+def _images(
+    ax: Axes, analysis: Analysis, mode: str, lo: Any, hi: Any, number: int, label: str | None, at: Mapping[str, float]
+) -> None:
     """The image of an aspect in joint space (q1, q2): that of a grid, square by square."""
     from matplotlib.collections import PolyCollection
 

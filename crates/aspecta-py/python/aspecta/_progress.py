@@ -3,7 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, TypeVar
+
+from aspecta._native import Partial
+
+Native = TypeVar("Native")
+Made = TypeVar("Made")
 
 #: ``progress(stage, done, total)``, called now and then; or ``True`` for a bar (with tqdm installed).
 Progress: TypeAlias = Callable[[str, int, int], Any] | bool | None
@@ -29,9 +34,21 @@ def reporter(progress: Progress) -> Callable[[str, int, int], Any] | None:
     return report
 
 
-def outcome(result: Any, interruption: BaseException | None) -> Any:
-    """Return a result; or raise what interrupted it, with ``partial``, the result so far (``None`` if there is none)."""
-    if interruption is not None:
-        interruption.partial = result  # type: ignore[attr-defined]
-        raise interruption
-    return result
+def kept(work: Callable[[], Native], made: Callable[[Native], Made]) -> Made:
+    """Return what is made of the result of some work.
+
+    An exception that interrupts it, such as ``KeyboardInterrupt``, comes at once; its ``partial()`` returns what is made of
+    the result so far (``None`` if there is none), and waits for the step that was under way.
+    """
+    try:
+        return made(work())
+    except BaseException as interruption:
+        later = getattr(interruption, "partial", None)
+        if isinstance(later, Partial):
+
+            def partial() -> Made | None:
+                found = later.wait()
+                return None if found is None else made(found)
+
+            interruption.partial = partial  # type: ignore[attr-defined]
+        raise

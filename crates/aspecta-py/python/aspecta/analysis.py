@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from aspecta import _native, certificates
-from aspecta._progress import Progress, outcome, reporter
+from aspecta._progress import Progress, kept, reporter
 from aspecta._result import Result
 from aspecta.maps import Map
 from aspecta.results import AssemblyModes, ModeGraph, Plan, Traversability, array_rows
@@ -63,7 +63,9 @@ class Analysis(Result):
     _paving: _native.Analysis | None
 
     def __init__(self, robot: Robot, native: _native.Analysis | None, data: Any = None, text: str = "") -> None:
-        super().__init__(native.json() if native is not None else data, native.text(False) if native is not None else text)
+        super().__init__(
+            native.json() if native is not None else data, native.text(False) if native is not None else text
+        )
         self.robot = robot
         self._paving = native
 
@@ -72,7 +74,9 @@ class Analysis(Result):
 
     def _boxes(self) -> _native.Analysis:
         if self._paving is None:
-            raise _native.Error("a pickled analysis holds its answers, not the boxes behind them: analyse the robot again")
+            raise _native.Error(
+                "a pickled analysis holds its answers, not the boxes behind them: analyse the robot again"
+            )
         return self._paving
 
     @property
@@ -99,7 +103,14 @@ class Analysis(Result):
             bounds = {name: tuple((lo, hi) for lo, hi in a[name]) for name in ("w_bounds", "q_bounds")}
             sample = a["sample"]
             return Aspect(
-                a["id"], c["mode"], c["det_a"], a["measure"], a["pieces"], tuple(sample["pose"]), tuple(sample["q"]), **bounds
+                a["id"],
+                c["mode"],
+                c["det_a"],
+                a["measure"],
+                a["pieces"],
+                tuple(sample["pose"]),
+                tuple(sample["q"]),
+                **bounds,
             )
 
         found = [aspect(c, a) for c in self.classes for a in c["aspects"]]
@@ -127,6 +138,7 @@ class Analysis(Result):
         A pose nearer to a border than cells tell is in none here; finer boxes may tell.
         """
         boxes, found = self._boxes(), []
+        mode = None if mode is None else self.robot._known(mode)
         aspects = {a.id: a for a in self.aspects}
         for s in self.robot.ik(pose):
             number = boxes.class_of(s.mode, s.det_a) if mode in (None, s.mode) and not s.serial_legs else None
@@ -141,7 +153,7 @@ class Analysis(Result):
         A cell of aspect 0 is undecided; the others certainly lie in theirs.
         """
         boxes = self._boxes()
-        number = boxes.class_of(mode, -1.0 if det_a in ("-", -1) else 1.0)
+        number = boxes.class_of(self.robot._known(mode), -1.0 if det_a in ("-", -1) else 1.0)
         if number is None:
             raise _native.Error(f"mode {mode} was not analysed")
         lo, hi, aspect = boxes.cells(number)
@@ -163,6 +175,7 @@ class Analysis(Result):
         """
         from aspecta._plot import aspects
 
+        mode = None if mode is None else self.robot._known(mode)
         return aspects(self, ax, mode, space, at or {})
 
     def report(self, directory: str | PathLike[str]) -> Path:
@@ -188,10 +201,11 @@ class Analysis(Result):
         """Cut aspects (default: all) into basic regions and uniqueness domains (Def. 10, Theorem 3).
 
         ``cells`` is the number of cells across the workspace, ``samples`` of random poses at which the result is compared
-        with the direct model. Numerical, true to a cell. Ctrl-C raises ``KeyboardInterrupt`` with ``partial``, a map of what
-        was done.
+        with the direct model. Numerical, true to a cell. Ctrl-C raises
+        ``KeyboardInterrupt``, whose ``partial()`` returns a map of what was done.
         """
         wanted = [aspects] if isinstance(aspects, int) else aspects
+        mode = None if mode is None else self.robot._known(mode)
         chosen = [
             a.id
             for a in self.aspects
@@ -200,9 +214,8 @@ class Analysis(Result):
         missing = set(wanted or ()) - {a.id for a in self.aspects}
         if missing:
             raise _native.Error(f"there is no aspect {min(missing)}: {len(self.aspects)} were found, numbered from 1")
-        found, interrupted = self._boxes().domains(chosen, cells, samples, reporter(progress))
-        result: Map = outcome(None if found is None else Map(found), interrupted)
-        return result
+        boxes = self._boxes()
+        return kept(lambda: boxes.domains(chosen, cells, samples, reporter(progress)), Map)
 
     def modes(self, *, progress: Progress = None) -> ModeGraph:
         """Return which aspects are joined by legs that change their postures."""
@@ -286,4 +299,5 @@ class Analysis(Result):
         """
         ends = [np.asarray(end, dtype=float).tolist() for end in (start, goal)]
         wanted = (float(weight), float(avoid[0]), float(avoid[1]))
-        return Plan(*self._boxes().plan(ends, [mode, to_mode or mode], through_modes, wanted, reporter(progress)))
+        modes = [self.robot._known(mode), self.robot._known(to_mode or mode)]
+        return Plan(*self._boxes().plan(ends, modes, through_modes, wanted, reporter(progress)))

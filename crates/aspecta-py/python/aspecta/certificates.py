@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from aspecta import _native
-from aspecta._progress import Progress, outcome, reporter
+from aspecta._progress import Progress, kept, reporter
 from aspecta.results import Verdict
 
 
@@ -44,9 +44,7 @@ class Certificate:
         Raises:
             Error: the text is no certificate.
         """
-        found, interrupted = _native.verify(self.text.encode(), reporter(progress))
-        verdict: Verdict = outcome(None if found is None else Verdict(*found), interrupted)
-        return verdict
+        return kept(lambda: _native.verify(self.text.encode(), reporter(progress)), lambda found: Verdict(*found))
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Certificate) and self.text == other.text

@@ -107,6 +107,23 @@ def from_matrix(platform: str, matrices: ArrayLike) -> Array:
     raise Error(f"platform `{platform}` moves in the plane: give pose coordinates, not matrices")
 
 
+def from_quaternion(
+    platform: str, positions: ArrayLike, *, xyzw: ArrayLike | None = None, wxyz: ArrayLike | None = None
+) -> Array:
+    """Return the pose coordinates (…, 6) of positions (…, 3) and quaternions (…, 4), their order named, for a free body.
+
+    Raises:
+        Error: as :func:`rotation_from_quaternion`; or the platform is no free body.
+    """
+    if platform != "free-body":
+        raise Error(f"quaternions are for free bodies; this platform is `{platform}`")
+    given = np.asarray(positions, dtype=float)
+    turns = rpy_from_rotation(rotation_from_quaternion(xyzw=xyzw, wxyz=wxyz))
+    if given.shape != turns.shape:
+        raise Error(f"positions {given.shape} and orientations {turns.shape}: give (3,) or (n, 3) of both")
+    return np.concatenate([given, turns], axis=-1)
+
+
 def to_matrix(platform: str, poses: ArrayLike) -> Array:
     """Return homogeneous matrices (…, 4, 4) of pose coordinates (…, dof) of a platform in space.
 

@@ -89,7 +89,9 @@ class PathCheck(Result):
             groups.setdefault(key, []).append(point)
         return [([p["mode"] for p in g], [p["pose"] for p in g], [p["q"] for p in g]) for g in groups.values()]
 
-    def time(self, speed: float | Sequence[float], acceleration: float | Sequence[float], *, rate: float = 100.0) -> Motion:
+    def time(
+        self, speed: float | Sequence[float], acceleration: float | Sequence[float], *, rate: float = 100.0
+    ) -> Motion:
         """Return the fastest motion through the path under joint limits; see :class:`Motion`.
 
         Raises:
@@ -159,7 +161,9 @@ class Motion(Result):
         return pandas.DataFrame({"time": self.time, **columns})
 
 
-def timed(pieces: list[Piece], speed: float | Sequence[float], acceleration: float | Sequence[float], rate: float) -> Motion:
+def timed(
+    pieces: list[Piece], speed: float | Sequence[float], acceleration: float | Sequence[float], rate: float
+) -> Motion:
     """Return the fastest motion through some pieces."""
     dof = len(pieces[0][2][0]) if pieces and pieces[0][2] else 1
 
@@ -204,7 +208,9 @@ class Plan(Result):
         """Its length: translations, and angles times the robot's characteristic length."""
         return float(sum(stretch["length"] for stretch in self.stretches))
 
-    def time(self, speed: float | Sequence[float], acceleration: float | Sequence[float], *, rate: float = 100.0) -> Motion:
+    def time(
+        self, speed: float | Sequence[float], acceleration: float | Sequence[float], *, rate: float = 100.0
+    ) -> Motion:
         """Return the fastest motion through the plan under joint limits; see :class:`Motion`."""
         return timed(self.pieces, speed, acceleration, rate)
 

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import html
 import json
-import math
-import re
 import warnings
 from collections.abc import Mapping, Sequence
 from os import PathLike, fspath
 from pathlib import Path
-from typing import Any, TypeAlias, overload
+from typing import Any, overload
 
 import numpy as np
 import tomli_w
 from numpy.typing import ArrayLike, NDArray
 
-from aspecta import _native, poses
-from aspecta._progress import Progress, outcome, reporter
+from aspecta import _input, _native, poses
+from aspecta._progress import Progress, kept, reporter
 from aspecta.analysis import Analysis
 from aspecta.follow import Follower, InverseFollower
 from aspecta.results import (
@@ -35,19 +33,12 @@ from aspecta.solutions import Solution, SolutionList, Solutions
 
 Array = NDArray[np.float64]
 
-#: Names of coordinates, and which of them are angles, by index.
-_Names: TypeAlias = tuple[list[str], list[int]]
-
 #: Depth of boxes when an analysis is a means, by the number of coordinates that vary; as for the command line.
 _COARSE = {1: 16, 2: 11, 3: 7}
 #: How often a plan is looked for again over finer boxes.
 _FINER = 2
 #: Samples of a roadmap that is to join given poses.
 _SAMPLES = 20_000
-
-
-class UnitWarning(UserWarning):
-    """A number looks as if it were in another unit than the one it is taken in."""
 
 
 class Robot:
@@ -89,8 +80,14 @@ class Robot:
         if name_or_path is not None:
             native = _native.Robot.resolve(fspath(name_or_path))
         else:
-            table: dict[str, Any] = {"name": name, "title": title, "source": source, "length-unit": length_unit, "platform": platform}
-            table |= {"legs": [_plain(leg) for leg in legs or ()], "window": _plain(window)}
+            table: dict[str, Any] = {
+                "name": name,
+                "title": title,
+                "source": source,
+                "length-unit": length_unit,
+                "platform": platform,
+            }
+            table |= {"legs": [_input.plain(leg) for leg in legs or ()], "window": _input.plain(window)}
             given = {key: value for key, value in table.items() if value is not None}
             native = _native.Robot.from_toml(tomli_w.dumps(given), name)
         self._set(native)
@@ -99,14 +96,20 @@ class Robot:
         self._native = native
         self._hash = hash(native.json())
         self._modes = frozenset(native.modes)
-        self._coordinates = [name for name, _ in native.coordinates], [k for k, (_, angle) in enumerate(native.coordinates) if angle]
-        self._motors = [f"q{j + 1}" for j in range(native.dof)], [j for j, angle in enumerate(native.joint_angles) if angle]
+        self._coordinates = (
+            [name for name, _ in native.coordinates],
+            [k for k, (_, angle) in enumerate(native.coordinates) if angle],
+        )
+        self._motors = (
+            [f"q{j + 1}" for j in range(native.dof)],
+            [j for j, angle in enumerate(native.joint_angles) if angle],
+        )
         mixed = native.mixed_units()
         if mixed is not None:
             small, a, large, b = mixed
             warnings.warn(
                 f"{small} is {a:g} {self.length_unit} and {large} {b:g} {self.length_unit}: all lengths are in one unit",
-                UnitWarning,
+                _input.UnitWarning,
                 stacklevel=3,
             )
 
@@ -222,8 +225,7 @@ class Robot:
             Error: the array does not fit the robot, or holds numbers that are not finite.
         """
         given = self._poses(pose, quaternion_xyzw, quaternion_wxyz)
-        if mode is not None:
-            self._known(mode)
+        mode = None if mode is None else self._known(mode)
         if given.ndim == 1:
             alone = (Solution(*parts) for parts in self._native.inverse_one(given))
             return SolutionList([s for s in alone if mode in (None, s.mode)], True)
@@ -247,9 +249,8 @@ class Robot:
         Raises:
             Error: as :meth:`ik`; or the platform can move while the joints are locked.
         """
-        given = self._joints(q)
-        if mode is not None:
-            self._known(mode)
+        given = _input.fitting(q, self._motors, self.name)
+        mode = None if mode is None else self._known(mode)
         if given.ndim == 1:
             all_parts, complete = self._native.direct_one(given)
             alone = (Solution(*parts) for parts in all_parts)
@@ -257,12 +258,27 @@ class Robot:
         found = Solutions(self._native.direct(given))
         return found if mode is None else found.in_mode(mode)
 
+    def mode_in_words(self, mode: str) -> str | None:
+        """Return a working mode by the names of its postures; ``None`` if they have none.
+
+        Everywhere a mode is asked for, such names do as well.
+
+        >>> import aspecta
+        >>> aspecta.Robot("five-bar").mode_in_words("+-")
+        'left,right'
+        """
+        return self._native.words(mode)
+
+    def limits_beyond(self, pose: ArrayLike, mode: str) -> list[str]:
+        """Return the names of the limits that the robot goes beyond at a pose (dof,) in a working mode."""
+        return self._native.beyond(_input.vector(pose), mode)
+
     def state(self, pose: ArrayLike, q: ArrayLike) -> State | list[State]:
         """Return the Jacobians of a configuration, its kind of singularity and its distance from singularities.
 
         Of several, (n, dof) each, a list. The pose and the joint vector need not belong together: look at ``residual``.
         """
-        xs, qs = self._poses(pose, None, None), self._joints(q)
+        xs, qs = self._poses(pose), _input.fitting(q, self._motors, self.name)
         if xs.shape != qs.shape:
             raise _native.Error(f"poses {xs.shape} and joint vectors {qs.shape}: give as many of each")
         if xs.ndim == 1:
@@ -271,11 +287,11 @@ class Robot:
 
     def follower(self, pose: ArrayLike, q: ArrayLike) -> Follower:
         """Return a :class:`Follower` that starts in a configuration, and follows its pose along joint vectors."""
-        return Follower(_native.Follower(self._native, _vector(pose), _vector(q)))
+        return Follower(_native.Follower(self._native, _input.vector(pose), _input.vector(q)))
 
     def inverse_follower(self, pose: ArrayLike, mode: str) -> InverseFollower:
         """Return an :class:`InverseFollower` that starts at a pose in a mode, and follows its joints along poses."""
-        return InverseFollower(_native.InverseFollower(self._native, _vector(pose), self._known(mode)))
+        return InverseFollower(_native.InverseFollower(self._native, _input.vector(pose), self._known(mode)))
 
     def matrix(self, pose: ArrayLike) -> Array:
         """Return poses (…, dof) of a platform in space as homogeneous matrices (…, 4, 4)."""
@@ -307,7 +323,7 @@ class Robot:
 
         Raises:
             Error: the workspace is unbounded, or more than three coordinates vary.
-            KeyboardInterrupt: with ``partial``, the analysis so far, or ``None``.
+            KeyboardInterrupt: at Ctrl-C; its ``partial()`` returns the analysis so far, or ``None``.
 
         >>> import aspecta
         >>> found = aspecta.Robot("five-bar").analyze()
@@ -315,18 +331,13 @@ class Robot:
         (10, 10)
         """
         wanted = [modes] if isinstance(modes, str) else list(modes)
-        native, interrupted = self._native.analyze(
-            self._held(fix, self._coordinates),
-            [self._known(mode) for mode in wanted],
-            seconds,
-            boxes,
-            depth,
-            resolution,
-            certificate,
-            reporter(progress),
+        held = _input.held(fix, self._coordinates)
+        known = [self._known(mode) for mode in wanted]
+        budget = (seconds, boxes, depth, resolution)
+        return kept(
+            lambda: self._native.analyze(held, known, *budget, certificate, reporter(progress)),
+            lambda native: Analysis(self, native),
         )
-        found: Analysis = outcome(None if native is None else Analysis(self, native), interrupted)
-        return found
 
     def explore(
         self,
@@ -339,9 +350,8 @@ class Robot:
         """Explore the classes of a robot with six coordinates by roadmaps whose segments are proved."""
         wanted = [modes] if isinstance(modes, str) else list(modes)
         effort = (samples, seconds)
-        found, interrupted = _native.explore(self._native, wanted, effort, reporter(progress))
-        result: Exploration = outcome(None if found is None else Exploration(found), interrupted)
-        return result
+        known = [self._known(mode) for mode in wanted]
+        return kept(lambda: _native.explore(self._native, known, effort, reporter(progress)), Exploration)
 
     def cusps(
         self,
@@ -354,8 +364,8 @@ class Robot:
         """Find where three direct solutions meet: all cusps of the slice in which a joint is held, such as
         ``fix={"q1": 14.98}``, proved; without ``fix``, of a robot with three coordinates, the curves they form.
         """
-        held = self._held(fix, self._motors)
-        return Cusps(_native.cusps(self._native, held, mode, boxes, reporter(progress)))
+        held = _input.held(fix, self._motors)
+        return Cusps(_native.cusps(self._native, held, mode and self._known(mode), boxes, reporter(progress)))
 
     # Paths.
 
@@ -383,12 +393,14 @@ class Robot:
         asked = (joined, float(avoid[0]), float(avoid[1]))
         if (poses is None) == (joints is None):
             raise _native.Error("give a path of poses, or of joints")
-        if joints is not None:
-            first = None if start is None else _vector(start)
-            return PathCheck(*_native.check_joints(self._native, array_rows(joints), first, asked))
+        if poses is None:
+            first = None if start is None else _input.vector(start)
+            return PathCheck(
+                *_native.check_joints(self._native, array_rows([] if joints is None else joints), first, asked)
+            )
         if mode is None:
             raise _native.Error(f"say in which working mode the poses are taken: mode = one of {', '.join(self.modes)}")
-        rows = np.atleast_2d(self._poses(poses, None, None)).tolist()
+        rows = np.atleast_2d(self._poses(poses)).tolist()
         return PathCheck(*_native.check_poses(self._native, rows, self._known(mode), asked))
 
     def time(
@@ -424,10 +436,10 @@ class Robot:
         The straight way is tried first. Robots with six coordinates are planned over a roadmap of ``samples`` poses, within a
         mode; the aspects of others are found in boxes of the given ``depth`` (default: as fine as it takes, within reason).
         """
-        ends = [_vector(start), _vector(goal)]
+        ends = [_input.vector(start), _input.vector(goal)]
         wanted = (float(weight), float(avoid[0]), float(avoid[1]))
-        through = through_modes or (to_mode is not None and to_mode != mode)
-        self._known(mode)
+        mode, to_mode = self._known(mode), None if to_mode is None else self._known(to_mode)
+        through = through_modes or to_mode not in (None, mode)
         if self.platform == "free-body":
             if through:
                 raise _native.Error("changes of working mode are not planned for free bodies")
@@ -457,7 +469,13 @@ class Robot:
             analysis = self.analyze(modes=modes, seconds=seconds, depth=depth or usual + finer, progress=progress)
             try:
                 return analysis.plan(
-                    *ends, mode=mode, to_mode=to_mode, through_modes=through, weight=wanted[0], avoid=wanted[1:], progress=progress
+                    *ends,
+                    mode=mode,
+                    to_mode=to_mode,
+                    through_modes=through,
+                    weight=wanted[0],
+                    avoid=wanted[1:],
+                    progress=progress,
                 )
             except _native.NoPlan as refusal:
                 if depth is not None or finer == _FINER or not refusal.finer:
@@ -470,7 +488,7 @@ class Robot:
         """Return the direct solutions of a joint vector q (dof,), by aspect; of a free body, by what a roadmap joins."""
         if self.platform == "free-body":
             effort = (samples, seconds)
-            return JoinedSolutions(_native.join_solutions(self._native, _vector(q), effort, reporter(progress)))
+            return JoinedSolutions(_native.join_solutions(self._native, _input.vector(q), effort, reporter(progress)))
         modes = [] if self.dof == 2 else sorted({s.mode for s in self.fk(q)})
         return self.analyze(modes=modes, seconds=seconds, depth=_COARSE[self.dof], progress=progress).assembly(q)
 
@@ -479,7 +497,7 @@ class Robot:
 
         Warns of limits of passive joints, which the model lacks.
         """
-        model, left_out = self._native.mjcf(_vector(pose), self._known(mode))
+        model, left_out = self._native.mjcf(_input.vector(pose), self._known(mode))
         if left_out:
             warnings.warn(f"the model lacks the limits of passive joints: {', '.join(left_out)}", stacklevel=2)
         return model
@@ -487,72 +505,14 @@ class Robot:
     # Input.
 
     def _known(self, mode: str) -> str:
-        if mode not in self._modes:
-            raise _native.Error(f"`{mode}` is no working mode of `{self.name}`, which has {', '.join(self.modes)}")
-        return mode
+        """The signs of a mode, which may be given by the names of its postures."""
+        return mode if mode in self._modes else self._native.signs(mode)
 
-    def _held(self, fix: Mapping[str, float] | None, coordinates: _Names) -> list[tuple[int, float]]:
-        names, angles = coordinates
-        held = []
-        for name, value in (fix or {}).items():
-            if name not in names:
-                raise _native.Error(f"fix: `{name}` is none of {', '.join(names)}")
-            held.append((names.index(name), float(value)))
-            if names.index(name) in angles:
-                _warn_of_degrees(name, float(value))
-        return held
-
-    def _poses(self, pose: ArrayLike | None, xyzw: ArrayLike | None, wxyz: ArrayLike | None) -> Array:
+    def _poses(self, pose: ArrayLike, xyzw: ArrayLike | None = None, wxyz: ArrayLike | None = None) -> Array:
         """One pose (dof,), or rows of several (n, dof)."""
         given = np.asarray(pose, dtype=float)
         if xyzw is not None or wxyz is not None:
-            if self.platform != "free-body":
-                raise _native.Error(f"quaternions are for free bodies; the platform of `{self.name}` is `{self.platform}`")
-            turns = poses.rpy_from_rotation(poses.rotation_from_quaternion(xyzw=xyzw, wxyz=wxyz))
-            if given.shape != turns.shape:
-                raise _native.Error(f"positions {given.shape} and orientations {turns.shape}: give (3,) or (n, 3) of both")
-            given = np.concatenate([given, turns], axis=-1)
+            given = poses.from_quaternion(self.platform, given, xyzw=xyzw, wxyz=wxyz)
         elif given.shape[-2:] == (4, 4) and given.ndim <= 3:
             given = poses.from_matrix(self.platform, given)
-        return self._fitting(given, self._coordinates)
-
-    def _joints(self, q: ArrayLike) -> Array:
-        """One joint vector (dof,), or rows of several (n, dof)."""
-        return self._fitting(np.asarray(q, dtype=float), self._motors)
-
-    def _fitting(self, given: Array, coordinates: _Names) -> Array:
-        """Numbers that fit the robot, as the compiled part takes them."""
-        names, angles = coordinates
-        if given.ndim not in (1, 2) or given.shape[-1] != len(names):
-            raise _native.Error(
-                f"an array of shape {given.shape}: `{self.name}` has {len(names)} coordinates ({', '.join(names)}), give "
-                f"({len(names)},) or (n, {len(names)})"
-            )
-        if angles and given.size and np.abs(given).max() > 2 * math.pi:
-            for k in angles:
-                column = given[..., k].ravel()
-                _warn_of_degrees(names[k], float(column[np.abs(column).argmax()]))
-        return np.ascontiguousarray(given)
-
-
-def _vector(values: ArrayLike) -> list[float]:
-    return np.asarray(values, dtype=float).ravel().tolist()
-
-
-def _warn_of_degrees(name: str, angle: float) -> None:
-    if 2 * math.pi < abs(angle) < 1e7:
-        turns = abs(angle) / (2 * math.pi)
-        warnings.warn(
-            f"{name} = {angle:g} is taken in radians, {turns:.1f} full turns; if it is in degrees, convert it with numpy.radians",
-            UnitWarning,
-            stacklevel=4,
-        )
-
-
-def _plain(value: Any) -> Any:
-    """Data as TOML has it: arrays and tuples as lists, underscores in keys as hyphens, nothing that is None."""
-    if isinstance(value, Mapping):
-        return {re.sub("_", "-", key): _plain(item) for key, item in value.items() if item is not None}
-    if isinstance(value, np.ndarray | tuple | list):
-        return [_plain(item) for item in value]
-    return value.item() if isinstance(value, np.generic) else value
+        return _input.fitting(given, self._coordinates, self.name)

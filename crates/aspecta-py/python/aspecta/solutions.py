@@ -60,7 +60,9 @@ class SolutionList(Sequence[Solution]):
 
     def __str__(self) -> str:
         count = len(self)
-        heading = f"{count} solution{'' if count == 1 else 's'}{', all of them' if self.complete else ', perhaps not all'}"
+        heading = (
+            f"{count} solution{'' if count == 1 else 's'}{', all of them' if self.complete else ', perhaps not all'}"
+        )
         return "\n".join([heading, *map(_line, self)])
 
     __repr__ = __str__
@@ -79,7 +81,9 @@ def _line(solution: Solution) -> str:
         return " ".join(f"{x:11.6g}" for x in values)
 
     limits = "" if solution.within_limits else "  beyond limits"
-    return f"  {solution.mode}  pose {numbers(solution.pose)}  q {numbers(solution.q)}  det A {solution.det_a:.4g}{limits}"
+    return (
+        f"  {solution.mode}  pose {numbers(solution.pose)}  q {numbers(solution.q)}  det A {solution.det_a:.4g}{limits}"
+    )
 
 
 class Solutions(Sequence[SolutionList]):
@@ -88,7 +92,19 @@ class Solutions(Sequence[SolutionList]):
     ``batch[i]`` are the solutions of row i; ``batch.q``, ``batch.pose`` … hold those of all rows, ``batch.row`` tells whose.
     """
 
-    __slots__ = ("_starts", "certified", "complete", "det_a", "pose", "q", "residual", "row", "serial", "signs", "within_limits")
+    __slots__ = (
+        "_starts",
+        "certified",
+        "complete",
+        "det_a",
+        "pose",
+        "q",
+        "residual",
+        "row",
+        "serial",
+        "signs",
+        "within_limits",
+    )
 
     #: (k,): the row, from 0, of which this is a solution.
     row: NDArray[np.int64]
