@@ -99,8 +99,10 @@ def test_types(tool: list[str], tmp_path: Path) -> None:
     pytest.importorskip("mypy")
     configuration = tmp_path / "mypy.ini"
     configuration.write_text("[mypy]\nstrict = True\n[mypy-pandas.*,tqdm.*]\nignore_missing_imports = True\n")
-    where = [] if tool[0] == "mypy.stubtest" else [str(PACKAGE)]
+    where = [] if tool[0] == "mypy.stubtest" else ["-p", "aspecta"]
+    # mypy finds what is installed by itself, and wants to be told of nothing else there.
+    path = {} if "site-packages" in PACKAGE.parts else {"MYPYPATH": str(PACKAGE.parent)}
     option = "--mypy-config-file" if tool[0] == "mypy.stubtest" else "--config-file"
     line = [sys.executable, "-m", tool[0], *tool[1:], option, str(configuration), *where]
-    done = subprocess.run(line, capture_output=True, text=True, cwd=tmp_path, check=False)
+    done = subprocess.run(line, capture_output=True, text=True, cwd=tmp_path, env=os.environ | path, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
