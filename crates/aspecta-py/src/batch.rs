@@ -31,13 +31,15 @@ pub struct Columns {
     certified: Vec<bool>,
     within_limits: Vec<bool>,
     serial: Vec<bool>,
-    /// Of each row asked about: whether its solutions are proved to be all.
+    /// How many rows were asked about.
+    rows: usize,
+    /// Of each row, of direct solutions: whether they are proved to be all.
     complete: Vec<bool>,
 }
 
 impl Columns {
     /// Adds the solutions of one row.
-    pub fn push(&mut self, row: usize, dof: usize, solutions: &[Solution], complete: bool) {
+    pub fn push(&mut self, row: usize, dof: usize, solutions: &[Solution], complete: Option<bool>) {
         for s in solutions {
             self.row.push(row as i64);
             self.pose.extend(&s.pose);
@@ -49,7 +51,8 @@ impl Columns {
             self.within_limits.push(s.within_limits);
             self.serial.extend((0..dof).map(|j| s.serial_legs.iter().any(|leg| leg.index() == j)));
         }
-        self.complete.push(complete);
+        self.rows += 1;
+        self.complete.extend(complete);
     }
 
     /// The columns of one part of the rows after the other.
@@ -75,6 +78,7 @@ impl Columns {
             serial,
             certified: one(parts, |p| &p.certified),
             within_limits: one(parts, |p| &p.within_limits),
+            rows: parts.iter().map(|p| p.rows).sum(),
             complete: one(parts, |p| &p.complete),
         }
     }
@@ -92,6 +96,7 @@ impl Columns {
         arrays.set_item("certified", PyArray1::from_vec(py, self.certified))?;
         arrays.set_item("within_limits", PyArray1::from_vec(py, self.within_limits))?;
         arrays.set_item("serial", PyArray1::from_vec(py, self.serial).reshape(shape)?)?;
+        arrays.set_item("rows", self.rows)?;
         arrays.set_item("complete", PyArray1::from_vec(py, self.complete))?;
         Ok(arrays)
     }

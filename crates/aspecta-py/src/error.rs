@@ -1,7 +1,6 @@
 //! Errors as Python raises them: the library's own words.
 
 use aspecta::motion::modes::NoRoute;
-use aspecta::motion::plan::Refusal;
 use pyo3::PyErr;
 use pyo3::create_exception;
 use pyo3::exceptions::PyValueError;
@@ -27,14 +26,10 @@ pub fn no_plan(py: Python<'_>, refusal: &NoRoute) -> PyErr {
         return Error::new_err(refusal.to_string());
     }
     let error = NoPlan::new_err(refusal.to_string());
-    let finer = matches!(
-        refusal,
-        NoRoute::Unknown(_) | NoRoute::NotFound { .. } | NoRoute::Plan(Refusal::NotFound { .. })
-    );
     let marked = error
         .value(py)
         .setattr("proved", refusal.is_proof())
-        .and_then(|()| error.value(py).setattr("finer", finer));
+        .and_then(|()| error.value(py).setattr("finer", refusal.is_of_resolution()));
     marked.map_or_else(|other| other, |()| error)
 }
 

@@ -16,6 +16,7 @@ mod threads;
 mod watch;
 
 use pyo3::prelude::*;
+use std::path::PathBuf;
 
 /// The module `aspecta._native`.
 #[pymodule]
@@ -39,7 +40,7 @@ mod _native {
     #[pymodule_export]
     use super::watch::Partial;
     #[pymodule_export]
-    use super::{catalogue, run_command, schema};
+    use super::{catalogue, coarse_depth, run_command, schema, write};
 
     /// The version of the package.
     #[pymodule_export]
@@ -54,6 +55,23 @@ fn catalogue() -> PyResult<Vec<(String, String)>> {
         Ok((robot.name, robot.title))
     };
     aspecta::catalogue::all().iter().map(entry).collect()
+}
+
+/// Returns the depth of boxes that is fine enough to work with aspects where so many coordinates are free.
+#[pyfunction]
+fn coarse_depth(free: usize) -> Option<u32> {
+    aspecta::Budget::coarse(free).depth
+}
+
+/// Writes a file, which is there only when it is complete.
+#[pyfunction]
+fn write(py: Python<'_>, path: PathBuf, content: &[u8]) -> PyResult<()> {
+    let (Some(directory), Some(name)) = (path.parent(), path.file_name().and_then(|name| name.to_str()))
+    else {
+        return Err(error::Error::new_err(format!("`{}` is no name of a file", path.display())));
+    };
+    py.detach(|| aspecta_view::file::put(directory, name, content))?;
+    Ok(())
 }
 
 /// Returns the JSON Schema of robot files.

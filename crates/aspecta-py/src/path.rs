@@ -6,10 +6,9 @@ use crate::robot::Robot;
 use crate::watch::watched;
 use aspecta::kinematics::constraints::Margins;
 use aspecta::kinematics::path::PathError;
-use aspecta::motion::time::{self, Binding, JointLimits, Row, Waypoint};
+use aspecta::motion::time::{self, JointLimits, Waypoint};
 use aspecta::{Joined, PathCheck, PathOptions};
 use pyo3::prelude::*;
-use serde::Serialize;
 use std::sync::Arc;
 
 /// A check: its JSON, and its summary.
@@ -66,20 +65,6 @@ pub fn check_joints(
     checked(py, move || aspecta::check_joints(&robot, &joints, start.as_deref(), &options))
 }
 
-/// A motion under joint limits.
-#[derive(Serialize)]
-struct Motion<'a> {
-    total_time: f64,
-    speed: &'a [f64],
-    acceleration: &'a [f64],
-    bindings: Vec<Binding>,
-    path_error: &'a [f64],
-    rows: Vec<Row>,
-}
-
-/// Rows beyond which a rate is taken to be a mistake.
-const MOST_ROWS: f64 = 1e7;
-
 /// The fastest motion through some pieces, as JSON, with so many rows a second.
 #[pyfunction]
 pub fn trajectory(
@@ -100,18 +85,11 @@ pub fn trajectory(
     let pieces: Vec<time::Piece> = pieces.into_iter().map(waypoints).collect::<PyResult<_>>()?;
     let limits = JointLimits { speed, acceleration };
     let motion = py.detach(|| time::trajectory(&pieces, &limits)).map_err(error::of)?;
-    if !(rate > 0.0 && motion.total_time() * rate <= MOST_ROWS) {
+    if !motion.is_usable_rate(rate) {
         let seconds = motion.total_time();
         return Err(error::Error::new_err(format!(
-            "rate = {rate}: give a positive number of rows a second, of which {seconds} s make no more than {MOST_ROWS:e}"
+            "rate = {rate}: give a positive number of rows a second, few enough for {seconds} s"
         )));
     }
-    error::json(&Motion {
-        total_time: motion.total_time(),
-        speed: &limits.speed,
-        acceleration: &limits.acceleration,
-        bindings: motion.bindings(),
-        path_error: motion.path_error(),
-        rows: motion.rows(rate).collect(),
-    })
+    error::json(&motion.sampled(rate))
 }

@@ -12,6 +12,8 @@ use aspecta::{Kinematics, Options, Solution, WorkingMode};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use std::fs;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Rows that one thread solves before it looks for more.
@@ -38,13 +40,19 @@ impl Robot {
     /// The robot of the catalogue, or of a file.
     #[staticmethod]
     fn resolve(name_or_path: &str) -> PyResult<Self> {
-        let robot = aspecta::Robot::resolve(name_or_path).map_err(error::of)?;
-        let entry = aspecta::catalogue::all().iter().find(|entry| entry.name == name_or_path);
-        let text = match entry {
-            Some(entry) => entry.text.to_owned(),
-            None => std::fs::read_to_string(name_or_path)?,
-        };
-        Ok(Self { robot: Arc::new(robot), text })
+        if let Some(entry) = aspecta::catalogue::all().iter().find(|entry| entry.name == name_or_path) {
+            return Self::from_toml(entry.text.to_owned(), &format!("{name_or_path}.toml"));
+        }
+        // It knows what may be a file, how large one may be, and what is wrong with it.
+        aspecta::Robot::resolve(name_or_path).map_err(error::of)?;
+        Self::from_toml(fs::read_to_string(name_or_path)?, name_or_path)
+    }
+
+    /// The robot of a file.
+    #[staticmethod]
+    fn load(path: PathBuf) -> PyResult<Self> {
+        aspecta::Robot::load(&path).map_err(error::of)?;
+        Self::from_toml(fs::read_to_string(&path)?, &path.display().to_string())
     }
 
     #[getter]
@@ -150,7 +158,7 @@ impl Robot {
         py: Python<'py>,
         poses: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyDict>> {
-        self.solve(py, &poses, |robot, pose| Ok((robot.inverse(pose)?, true)))
+        self.solve(py, &poses, |robot, pose| Ok((robot.inverse(pose)?, None)))
     }
 
     /// All direct solutions of each row.
@@ -160,7 +168,9 @@ impl Robot {
         joints: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyDict>> {
         self.solve(py, &joints, |robot, q| {
-            robot.direct_certified(q).map(|DirectSolutions { solutions, complete }| (solutions, complete))
+            robot
+                .direct_certified(q)
+                .map(|DirectSolutions { solutions, complete }| (solutions, Some(complete)))
         })
     }
 
@@ -227,17 +237,7 @@ impl Robot {
 impl Robot {
     /// A working mode by its signs, or by the names of its postures.
     pub fn mode(&self, text: &str) -> PyResult<WorkingMode> {
-        self.robot.working_mode(text).ok_or_else(|| {
-            let names: Vec<_> = self.robot.working_modes().iter().map(WorkingMode::to_string).collect();
-            let words = self.robot.postures_in_words();
-            let by_name =
-                words.map_or(String::new(), |w| format!("; or a name for each leg, with commas: {w}"));
-            error::Error::new_err(format!(
-                "mode: `{text}` is not a working mode of `{}`; it has {}{by_name}",
-                self.robot.name,
-                names.join(", ")
-            ))
-        })
+        self.robot.working_mode(text).map_err(error::of)
     }
 
     /// Solves every row of an array, on all threads.
@@ -245,7 +245,7 @@ impl Robot {
         &self,
         py: Python<'py>,
         rows: &PyReadonlyArray2<'py, f64>,
-        solve: impl Fn(&aspecta::Robot, &[f64]) -> Result<(Vec<Solution>, bool), KinematicsError> + Sync,
+        solve: impl Fn(&aspecta::Robot, &[f64]) -> Result<(Vec<Solution>, Option<bool>), KinematicsError> + Sync,
     ) -> PyResult<Bound<'py, PyDict>> {
         let dof = self.robot.dof();
         let (count, width) = (rows.as_array().nrows(), rows.as_array().ncols());

@@ -36,6 +36,7 @@ pub use frame::{crank_frame, rail_frame};
 pub use leg::{BASE_FRAME, Frame, Leg, Limit, into_frame, out_of_frame, point};
 pub use leg_index::LegIndex;
 pub use platform::{Coordinate, Platform};
+pub use postures::NoSuchMode;
 pub use sizes::MixedUnits;
 pub use slice::SliceError;
 pub use sound::{Takes, Unsound, holds, sane, takes, usable, wanted};

@@ -2,18 +2,45 @@
 
 use crate::{LegIndex, Robot, WorkingMode};
 
+/// A text that names no working mode of the robot.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("`{text}` is not a working mode of `{robot}`; it has {known}")]
+pub struct NoSuchMode {
+    /// The text.
+    pub text: String,
+    /// The robot's name.
+    pub robot: String,
+    /// The modes it has, and how else they may be given.
+    pub known: String,
+}
+
 impl Robot {
-    /// The working mode that a text means, if it is one of the robot's: its signs, `+-`, or leg by leg a sign
-    /// or the name that legs of this kind have for the posture, `left,-`.
+    /// The working mode that a text means: its signs, `+-`, or leg by leg a sign or the name that legs of this
+    /// kind have for the posture, `left,-`.
+    ///
+    /// # Errors
+    /// [`NoSuchMode`] if it is none of the robot's.
     ///
     /// # Examples
     /// ```
     /// let robot = aspecta_robot::catalogue::find("five-bar").unwrap();
-    /// assert_eq!(robot.working_mode("left,right"), "+-".parse().ok());
+    /// assert_eq!(robot.working_mode("left,right").ok(), "+-".parse().ok());
     /// assert_eq!(robot.working_mode("+,right"), robot.working_mode("+-"));
-    /// assert_eq!(robot.working_mode("left,ahead"), None);
+    /// assert!(robot.working_mode("left,ahead").unwrap_err().to_string().contains("+ left, - right"));
     /// ```
-    pub fn working_mode(&self, text: &str) -> Option<WorkingMode> {
+    pub fn working_mode(&self, text: &str) -> Result<WorkingMode, NoSuchMode> {
+        self.mode_that_is(text).ok_or_else(|| {
+            let modes: Vec<String> = self.working_modes().iter().map(WorkingMode::to_string).collect();
+            let by_name = |words| format!("; or a name for each leg, with commas: {words}");
+            NoSuchMode {
+                text: text.to_owned(),
+                robot: self.name.clone(),
+                known: modes.join(", ") + &self.postures_in_words().map_or(String::new(), by_name),
+            }
+        })
+    }
+
+    fn mode_that_is(&self, text: &str) -> Option<WorkingMode> {
         let parts: Vec<&str> = text.split(',').map(str::trim).collect();
         let mode = match parts[..] {
             [signs] => signs.parse().ok()?,

@@ -77,8 +77,9 @@ impl Robot {
     /// All coordinates of a pose that lie beyond the user's window, as [`Robot::beyond_window`] tells the
     /// first.
     pub fn all_beyond_window(&self, pose: &[f64]) -> impl Iterator<Item = usize> {
-        let pose = self.with_level_pitch(padded(pose));
-        (0..self.dof()).filter(move |&k| {
+        let asked = if self.window.iter().all(Option::is_none) { 0 } else { self.dof() };
+        let pose = if asked == 0 { padded(pose) } else { self.with_level_pitch(padded(pose)) };
+        (0..asked).filter(move |&k| {
             self.window_range(k).is_some_and(|range| {
                 let x =
                     if self.platform.coordinates()[k].periodic { turned_up(pose[k], range) } else { pose[k] };

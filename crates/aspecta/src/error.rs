@@ -13,7 +13,7 @@ use crate::kinematics::path::time::TimeError;
 use crate::motion::explore::{ExploreError, NoWay};
 use crate::motion::modes::NoRoute;
 use crate::motion::plan;
-use crate::robot::{FileError, NotAMode, RobotError, SliceError, Unbounded};
+use crate::robot::{FileError, NoSuchMode, NotAMode, RobotError, SliceError, Unbounded};
 
 /// Any error of this library, as `?` makes it: the message is that of the error inside.
 ///
@@ -44,6 +44,9 @@ pub enum Error {
     /// A text is not a working mode.
     #[error(transparent)]
     Mode(#[from] NotAMode),
+    /// A text is no working mode of the robot.
+    #[error(transparent)]
+    NoSuchMode(#[from] NoSuchMode),
     /// A pose or a joint vector does not fit the robot.
     #[error(transparent)]
     Kinematics(#[from] KinematicsError),

@@ -7,14 +7,14 @@ use crate::input::{self, Columns};
 use crate::output::{About, Format, Labels, json, note, number};
 use crate::show::numbered::{self, IN_ONE, Numbered, list};
 use crate::show::{joined, motion};
-use crate::work::planning::{Planned, may_be_finer, plan_over_roadmap, route};
+use crate::work::planning::{Planned, plan_over_roadmap, route};
 use aspecta::Kinematics;
 use aspecta::kinematics::{DirectSolutions, WorkingMode};
 use aspecta::motion::assembly::{
     AssemblyMode, AssemblyModes, CuspRound, Fold, assembly_modes, cusps_round, folds,
 };
 use aspecta::motion::explore::join_solutions;
-use aspecta::motion::modes::Configuration;
+use aspecta::motion::modes::{Configuration, NoRoute};
 use aspecta::motion::plan::{Plan, PlanOptions};
 use aspecta::robot::{Platform, Robot};
 use clap::Args;
@@ -112,7 +112,7 @@ impl Assembly {
                 Configuration { pose: &solution.pose, mode: solution.mode }
             });
             let change = route(analysis, [start, goal], through, &options, control);
-            let more = may_be_finer(&change);
+            let more = change.as_ref().is_err_and(NoRoute::is_of_resolution);
             let change = self.planning.film(&robot, Some(analysis), change)?;
             let explicable = change.result.as_ref().ok().filter(|_| self.explain && !through);
             let plan = explicable.map(|route| &route.stretches[0]);

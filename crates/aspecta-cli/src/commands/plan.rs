@@ -5,9 +5,9 @@ use crate::args::robot::RobotArg;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
 use crate::show::motion;
-use crate::work::planning::{may_be_finer, plan_over_roadmap, route, straight};
+use crate::work::planning::{plan_over_roadmap, route, straight};
 use aspecta::kinematics::WorkingMode;
-use aspecta::motion::modes::Configuration;
+use aspecta::motion::modes::{Configuration, NoRoute};
 use aspecta::motion::plan::PlanOptions;
 use aspecta::motion::traverse::PoseSet;
 use aspecta::robot::{Platform, Robot};
@@ -80,7 +80,7 @@ impl Plan {
         let modes: &[WorkingMode] = if through { &[] } else { &[mode] };
         let planned = self.planning.paved(&robot)?.with_finer(&robot, modes, |analysis, control| {
             let result = route(analysis, ends, through, &options, control);
-            let more = may_be_finer(&result);
+            let more = result.as_ref().is_err_and(NoRoute::is_of_resolution);
             Ok((self.planning.film(&robot, Some(analysis), result)?, more))
         })?;
         motion::print(out, &robot, &planned, &self.planning)

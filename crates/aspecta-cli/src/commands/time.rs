@@ -6,7 +6,7 @@ use crate::args::rate::Rate;
 use crate::failure::{Answer, Failure};
 use crate::output::{About, Format, Labels, json, note, number};
 use crate::work::timing;
-use aspecta::motion::time::{Binding, JointLimits, Limited, Row, Trajectory, trajectory};
+use aspecta::motion::time::{Limited, Sampled, Trajectory, trajectory};
 use aspecta::motion::{Joined, Obstacle, PathCheck};
 use clap::Args;
 use serde::Serialize;
@@ -49,17 +49,7 @@ struct Document<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     obstacle: Option<&'a Obstacle>,
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
-    motion: Option<Motion<'a>>,
-}
-
-#[derive(Serialize)]
-struct Motion<'a> {
-    total_time: f64,
-    speed: &'a [f64],
-    acceleration: &'a [f64],
-    bindings: Vec<Binding>,
-    path_error: &'a [f64],
-    rows: Vec<Row>,
+    motion: Option<Sampled>,
 }
 
 /// The most segments, each from rest to rest, on a grid of its own.
@@ -97,7 +87,7 @@ impl Time {
         let written = self.out.as_deref().map(write).transpose()?;
         let format = self.format.beside(self.path.deg);
         match format {
-            Format::Json => json(out, &self.document(&check, Some((&motion, &limits))))?,
+            Format::Json => json(out, &self.document(&check, Some(&motion)))?,
             Format::Csv => timing::rows(out, robot, &motion, self.rate.rate)?,
             Format::Table => self.summary(out, &check, &motion)?,
         }
@@ -116,25 +106,13 @@ impl Time {
         Ok(Answer::No)
     }
 
-    fn document<'a>(
-        &self,
-        check: &'a PathCheck,
-        motion: Option<(&'a Trajectory, &'a JointLimits)>,
-    ) -> Document<'a> {
-        let motion = motion.map(|(motion, limits)| Motion {
-            total_time: motion.total_time(),
-            speed: &limits.speed,
-            acceleration: &limits.acceleration,
-            bindings: motion.bindings(),
-            path_error: motion.path_error(),
-            rows: motion.rows(self.rate.rate).collect(),
-        });
+    fn document<'a>(&self, check: &'a PathCheck, motion: Option<&Trajectory>) -> Document<'a> {
         Document {
             about: About::of(&check.robot),
             mode: check.mode.to_string(),
             sound: check.is_sound(),
             obstacle: check.obstacle.as_ref(),
-            motion,
+            motion: motion.map(|motion| motion.sampled(self.rate.rate)),
         }
     }
 

@@ -131,16 +131,7 @@ pub fn warn_of_mixed_units(robot: &Robot) {
 /// The working mode given to `--mode`, which must be one of the robot's: by its signs, or leg by leg by the
 /// names of postures.
 pub fn mode(robot: &Robot, text: &str) -> Result<WorkingMode, Failure> {
-    robot.working_mode(text).ok_or_else(|| {
-        let names: Vec<_> = robot.working_modes().iter().map(WorkingMode::to_string).collect();
-        let words = robot.postures_in_words();
-        let by_name = words.map_or(String::new(), |w| format!("; or a name for each leg, with commas: {w}"));
-        Failure::Input(format!(
-            "--mode: `{text}` is not a working mode of `{}`; it has {}{by_name}",
-            robot.name,
-            names.join(", ")
-        ))
-    })
+    robot.working_mode(text).map_err(|e| Failure::Input(format!("--mode: {e}")))
 }
 
 /// The working modes given to `--mode`, each once. Those given leg by leg have commas inside, as there are

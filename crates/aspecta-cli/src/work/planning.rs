@@ -65,14 +65,6 @@ impl Analysing {
     }
 }
 
-/// Whether finer boxes may tell whether there is a route.
-pub fn may_be_finer(result: &Result<Route, NoRoute>) -> bool {
-    matches!(
-        result,
-        Err(NoRoute::Unknown(_) | NoRoute::NotFound { .. } | NoRoute::Plan(Refusal::NotFound { .. }))
-    )
-}
-
 /// The plan that goes straight, where that is good enough.
 pub fn straight(robot: &Robot, ends: [&[f64]; 2], mode: WorkingMode, options: &PlanOptions) -> Option<Plan> {
     let window = robot.slice(&[]).ok()?;

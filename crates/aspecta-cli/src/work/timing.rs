@@ -10,9 +10,6 @@ use aspecta_view::words::count;
 use std::io::Write;
 use std::path::Path;
 
-/// Rows beyond which a rate is taken to be a mistake.
-const MOST_ROWS: f64 = 1e7;
-
 /// The limits given to `--speed` and `--acceleration`.
 pub fn limits(robot: &Robot, speed: &str, acceleration: &str, degrees: bool) -> Result<JointLimits, Failure> {
     Ok(JointLimits {
@@ -47,7 +44,7 @@ pub fn check_length(motion: &Trajectory, rate: f64) -> Result<(), Failure> {
     let seconds = motion.total_time();
     let many =
         || Failure::Input(format!("--rate: {rate} a second for {} s are too many rows", number(seconds)));
-    (seconds * rate <= MOST_ROWS).then_some(()).ok_or_else(many)
+    motion.is_usable_rate(rate).then_some(()).ok_or_else(many)
 }
 
 /// Writes the CSV file given to `option`, which is there only when it is complete, and says so.

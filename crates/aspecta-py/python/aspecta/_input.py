@@ -58,6 +58,11 @@ def vector(values: ArrayLike) -> list[float]:
     return [float(x) for x in np.asarray(values, dtype=float).ravel()]
 
 
+def rows(values: ArrayLike) -> list[list[float]]:
+    """Return rows of numbers as lists."""
+    return [[float(x) for x in row] for row in np.atleast_2d(np.asarray(values, dtype=float))]
+
+
 def plain(value: Any) -> Any:
     """Return data as TOML has it: arrays and tuples as lists, hyphens in keys, nothing that is None."""
     if isinstance(value, Mapping):

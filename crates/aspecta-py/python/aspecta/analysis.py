@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from aspecta import _native, certificates
+from aspecta import _input, _native, certificates
 from aspecta._progress import Progress, kept, reporter
 from aspecta._result import Result
 from aspecta.maps import Map
-from aspecta.results import AssemblyModes, ModeGraph, Plan, Traversability, array_rows
+from aspecta.results import AssemblyModes, ModeGraph, Plan, Traversability
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -224,7 +224,7 @@ class Analysis(Result):
 
     def assembly(self, q: ArrayLike) -> AssemblyModes:
         """Return the direct solutions of a joint vector q (dof,), by aspect."""
-        return AssemblyModes(self._boxes().assembly(np.asarray(q, dtype=float).tolist()))
+        return AssemblyModes(self._boxes().assembly(_input.vector(q)))
 
     def traverse(
         self,
@@ -256,10 +256,10 @@ class Analysis(Result):
         lists: list[list[list[float]]] = []
         if kind == "paths":
             assert paths is not None
-            lists = [array_rows(path) for path in paths]
+            lists = [_input.rows(path) for path in paths]
         elif kind == "poses":
             assert value is not None
-            lists = [array_rows(value)]  # type: ignore[arg-type]
+            lists = [_input.rows(value)]  # type: ignore[arg-type]
         else:
             ranges = [(float(lo), float(hi)) for lo, hi in np.asarray(value, dtype=float)]
             if len(ranges) != self.robot.dof:
@@ -297,7 +297,7 @@ class Analysis(Result):
             NoPlan: there is none (``proved`` is true), or none was found.
             Error: a pose is not one of the robot in that mode.
         """
-        ends = [np.asarray(end, dtype=float).tolist() for end in (start, goal)]
+        ends = [_input.vector(end) for end in (start, goal)]
         wanted = (float(weight), float(avoid[0]), float(avoid[1]))
         modes = [self.robot._known(mode), self.robot._known(to_mode or mode)]
         return Plan(*self._boxes().plan(ends, modes, through_modes, wanted, reporter(progress)))

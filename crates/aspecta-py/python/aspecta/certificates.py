@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from os import PathLike
+from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
 
@@ -30,7 +30,7 @@ class Certificate:
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the certificate into a file, for ``aspecta verify``."""
-        Path(path).write_text(self.text, encoding="utf-8")
+        _native.write(fspath(path), self.text.encode())
 
     def to_dict(self) -> Any:
         """Return the certificate as plain data."""

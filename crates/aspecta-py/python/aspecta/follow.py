@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Generic, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -48,7 +48,36 @@ def _vector(values: ArrayLike) -> Array:
     return np.ascontiguousarray(values, dtype=float)
 
 
-class Follower:
+N = TypeVar("N", _native.Follower, _native.InverseFollower)
+
+
+class _Following(Generic[N]):
+    """What both followers have: the configuration they are in."""
+
+    __slots__ = ("_native",)
+
+    _native: N
+
+    def __init__(self, native: N) -> None:
+        self._native = native
+
+    @property
+    def pose(self) -> Array:
+        """X, (dof,): where it is."""
+        return np.array(self._native.pose)
+
+    @property
+    def q(self) -> Array:
+        """q, (dof,): where its joints are."""
+        return np.array(self._native.q)
+
+    @property
+    def mode(self) -> str:
+        """The working mode it is in."""
+        return self._native.mode
+
+
+class Follower(_Following[_native.Follower]):
     """Follows one direct solution along joint vectors: which pose now?
 
     >>> import aspecta
@@ -60,25 +89,7 @@ class Follower:
     (True, True)
     """
 
-    __slots__ = ("_native",)
-
-    def __init__(self, native: _native.Follower) -> None:
-        self._native = native
-
-    @property
-    def pose(self) -> Array:
-        """X, (dof,): where it is."""
-        return np.array(self._native.pose)
-
-    @property
-    def q(self) -> Array:
-        """q, (dof,): where its joints are."""
-        return np.array(self._native.q)
-
-    @property
-    def mode(self) -> str:
-        """The working mode it is in."""
-        return self._native.mode
+    __slots__ = ()
 
     def step(self, q: ArrayLike) -> Step:
         """Go to the joint vector q (dof,), straight.
@@ -90,28 +101,10 @@ class Follower:
         return Step._make(self._native.step(_vector(q)))
 
 
-class InverseFollower:
+class InverseFollower(_Following[_native.InverseFollower]):
     """Follows one inverse solution along poses: which joint vector now?"""
 
-    __slots__ = ("_native",)
-
-    def __init__(self, native: _native.InverseFollower) -> None:
-        self._native = native
-
-    @property
-    def pose(self) -> Array:
-        """X, (dof,): where it is."""
-        return np.array(self._native.pose)
-
-    @property
-    def q(self) -> Array:
-        """q, (dof,): where its joints are."""
-        return np.array(self._native.q)
-
-    @property
-    def mode(self) -> str:
-        """The working mode it is in."""
-        return self._native.mode
+    __slots__ = ()
 
     def step(self, pose: ArrayLike) -> JointStep:
         """Go to the pose X (dof,), straight.

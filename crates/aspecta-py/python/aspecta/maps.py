@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from os import PathLike, fspath
-from pathlib import Path
 from typing import Any, NamedTuple, overload
 
 import numpy as np
@@ -59,8 +58,8 @@ class Map:
         return cls(_native.Map.load(fspath(path)))
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write the map into a file; ``docs/map-file.md`` describes it."""
-        Path(path).write_bytes(self._native.to_bytes())
+        """Write the map into a file, which is there only when it is complete; ``docs/map-file.md`` describes it."""
+        _native.write(fspath(path), self._native.to_bytes())
 
     @property
     def robot(self) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from aspecta import _native
 from aspecta._result import Result
@@ -332,8 +332,3 @@ class Verdict(Result):
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), (self._data, self._text, self.verified)
-
-
-def array_rows(values: ArrayLike) -> list[list[float]]:
-    """Return rows of numbers as lists."""
-    return [[float(x) for x in row] for row in np.atleast_2d(np.asarray(values, dtype=float))]

@@ -7,7 +7,6 @@ import json
 import warnings
 from collections.abc import Mapping, Sequence
 from os import PathLike, fspath
-from pathlib import Path
 from typing import Any, overload
 
 import numpy as np
@@ -27,14 +26,11 @@ from aspecta.results import (
     PathCheck,
     Plan,
     State,
-    array_rows,
 )
 from aspecta.solutions import Solution, SolutionList, Solutions
 
 Array = NDArray[np.float64]
 
-#: Depth of boxes when an analysis is a means, by the number of coordinates that vary; as for the command line.
-_COARSE = {1: 16, 2: 11, 3: 7}
 #: How often a plan is looked for again over finer boxes.
 _FINER = 2
 #: Samples of a roadmap that is to join given poses.
@@ -123,7 +119,9 @@ class Robot:
     @classmethod
     def from_file(cls, path: str | PathLike[str]) -> Robot:
         """Return the robot of a file."""
-        return cls.from_toml(Path(path).read_text(encoding="utf-8"), fspath(path))
+        robot = cls.__new__(cls)
+        robot._set(_native.Robot.load(fspath(path)))
+        return robot
 
     def to_toml(self) -> str:
         """Return the robot as the text of a robot file."""
@@ -228,8 +226,8 @@ class Robot:
         mode = None if mode is None else self._known(mode)
         if given.ndim == 1:
             alone = (Solution(*parts) for parts in self._native.inverse_one(given))
-            return SolutionList([s for s in alone if mode in (None, s.mode)], True)
-        found = Solutions(self._native.inverse(given))
+            return SolutionList([s for s in alone if mode in (None, s.mode)])
+        found = Solutions({**self._native.inverse(given), "complete": None})
         return found if mode is None else found.in_mode(mode)
 
     @overload
@@ -396,11 +394,11 @@ class Robot:
         if poses is None:
             first = None if start is None else _input.vector(start)
             return PathCheck(
-                *_native.check_joints(self._native, array_rows([] if joints is None else joints), first, asked)
+                *_native.check_joints(self._native, _input.rows([] if joints is None else joints), first, asked)
             )
         if mode is None:
             raise _native.Error(f"say in which working mode the poses are taken: mode = one of {', '.join(self.modes)}")
-        rows = np.atleast_2d(self._poses(poses)).tolist()
+        rows = _input.rows(self._poses(poses))
         return PathCheck(*_native.check_poses(self._native, rows, self._known(mode), asked))
 
     def time(
@@ -463,7 +461,7 @@ class Robot:
         progress: Progress,
     ) -> Plan:
         """Plan through aspects, over finer boxes where they may tell more."""
-        usual = _COARSE[self.dof]
+        usual = _native.coarse_depth(self.dof)
         for finer in range(_FINER + 1):
             modes = [] if through or self.dof == 2 else [mode]
             analysis = self.analyze(modes=modes, seconds=seconds, depth=depth or usual + finer, progress=progress)
@@ -490,7 +488,9 @@ class Robot:
             effort = (samples, seconds)
             return JoinedSolutions(_native.join_solutions(self._native, _input.vector(q), effort, reporter(progress)))
         modes = [] if self.dof == 2 else sorted({s.mode for s in self.fk(q)})
-        return self.analyze(modes=modes, seconds=seconds, depth=_COARSE[self.dof], progress=progress).assembly(q)
+        return self.analyze(
+            modes=modes, seconds=seconds, depth=_native.coarse_depth(self.dof), progress=progress
+        ).assembly(q)
 
     def to_mjcf(self, pose: ArrayLike, mode: str) -> str:
         """Return the robot as a model for MuJoCo that starts at a pose in a working mode.

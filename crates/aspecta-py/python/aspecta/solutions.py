@@ -36,15 +36,19 @@ class Solution:
     serial_legs: tuple[int, ...]
 
 
+#: What is said of a list of solutions.
+_PROVED = {True: ", proved to be all", False: ", perhaps not all", None: ""}
+
+
 class SolutionList(Sequence[Solution]):
     """All solutions of one pose, or of one joint vector. It prints as a table."""
 
     __slots__ = ("_solutions", "complete")
 
-    #: Whether they are proved to be all.
-    complete: bool
+    #: Whether direct solutions are proved to be all; ``None`` of inverse ones, of which that is not proved.
+    complete: bool | None
 
-    def __init__(self, solutions: Sequence[Solution], complete: bool) -> None:
+    def __init__(self, solutions: Sequence[Solution], complete: bool | None = None) -> None:
         self._solutions = tuple(solutions)
         self.complete = complete
 
@@ -60,9 +64,7 @@ class SolutionList(Sequence[Solution]):
 
     def __str__(self) -> str:
         count = len(self)
-        heading = (
-            f"{count} solution{'' if count == 1 else 's'}{', all of them' if self.complete else ', perhaps not all'}"
-        )
+        heading = f"{count} solution{'' if count == 1 else 's'}{_PROVED[self.complete]}"
         return "\n".join([heading, *map(_line, self)])
 
     __repr__ = __str__
@@ -101,6 +103,7 @@ class Solutions(Sequence[SolutionList]):
         "q",
         "residual",
         "row",
+        "rows",
         "serial",
         "signs",
         "within_limits",
@@ -124,16 +127,18 @@ class Solutions(Sequence[SolutionList]):
     within_limits: Mask
     #: (k, dof): whether a leg is at a serial singularity.
     serial: Mask
-    #: (n,): of each row asked about, whether its solutions are proved to be all.
-    complete: Mask
+    #: (n,): of each row, whether its direct solutions are proved to be all; ``None`` of inverse solutions.
+    complete: Mask | None
+    #: n, the rows asked about.
+    rows: int
 
     def __init__(self, arrays: dict[str, Any]) -> None:
         for name, array in arrays.items():
             setattr(self, name, array)
-        self._starts = np.searchsorted(self.row, np.arange(len(self.complete) + 1))
+        self._starts = np.searchsorted(self.row, np.arange(self.rows + 1))
 
     def __len__(self) -> int:
-        return len(self.complete)
+        return self.rows
 
     @property
     def counts(self) -> NDArray[np.int64]:
@@ -159,7 +164,7 @@ class Solutions(Sequence[SolutionList]):
             raise IndexError(f"row {index} of {len(self)}")
         index %= len(self)
         found = [self._solution(k) for k in range(self._starts[index], self._starts[index + 1])]
-        return SolutionList(found, bool(self.complete[index]))
+        return SolutionList(found, None if self.complete is None else bool(self.complete[index]))
 
     def _solution(self, k: int) -> Solution:
         return Solution(
@@ -178,12 +183,15 @@ class Solutions(Sequence[SolutionList]):
 
     def only(self, kept: Mask) -> Solutions:
         """Return the solutions that a mask (k,) keeps. Rows stay as they are, some with fewer solutions."""
-        arrays = {name: getattr(self, name)[kept] for name in self.__slots__ if name not in ("_starts", "complete")}
-        return Solutions({**arrays, "complete": self.complete})
+        arrays = {
+            name: getattr(self, name)[kept] for name in self.__slots__ if name not in ("_starts", "complete", "rows")
+        }
+        return Solutions({**arrays, "complete": self.complete, "rows": self.rows})
 
     def in_mode(self, mode: str) -> Solutions:
         """Return the solutions in one working mode, such as ``"+-+"``."""
-        return self.only(self.modes == mode)
+        wanted = np.array([1 if sign == "+" else -1 for sign in mode], dtype=np.int8)
+        return self.only((self.signs == wanted).all(axis=1))
 
     def to_pandas(self) -> Any:
         """Return a ``pandas.DataFrame`` with a solution a line (pandas must be installed)."""
@@ -197,7 +205,8 @@ class Solutions(Sequence[SolutionList]):
         return pandas.DataFrame(columns)
 
     def __str__(self) -> str:
-        return f"{len(self.row)} solutions of {len(self)} rows, proved to be all in {int(self.complete.sum())}"
+        proved = "" if self.complete is None else f", proved to be all in {int(self.complete.sum())}"
+        return f"{len(self.row)} solutions of {len(self)} rows{proved}"
 
     __repr__ = __str__
 

@@ -209,6 +209,11 @@ impl NoRoute {
             Self::Unknown(_) | Self::NotFound { .. } | Self::SerialMargin => false,
         }
     }
+
+    /// Whether finer boxes may tell whether there is a motion.
+    pub fn is_of_resolution(&self) -> bool {
+        matches!(self, Self::Unknown(_) | Self::NotFound { .. } | Self::Plan(Refusal::NotFound { .. }))
+    }
 }
 
 impl Planner<'_> {

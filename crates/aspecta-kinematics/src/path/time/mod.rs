@@ -11,7 +11,7 @@
 mod grid;
 mod trajectory;
 
-pub use trajectory::{Binding, Limited, Row, Trajectory};
+pub use trajectory::{Binding, Limited, Row, Sampled, Trajectory};
 
 use crate::path::PathCheck;
 use crate::path::check::Joined;

@@ -11,6 +11,8 @@ use serde::Serialize;
 const SHARES: usize = 8;
 /// A limit is said to bind where it is used to this share.
 const BINDS: f64 = 0.99;
+/// Rows beyond which a rate is taken to be a mistake.
+const MOST_ROWS: f64 = 1e7;
 /// Samples closer together than this share of the way are one.
 const SAME: f64 = 1e-12;
 
@@ -61,6 +63,23 @@ pub enum Limited {
     Speed,
     /// |q̈|.
     Acceleration,
+}
+
+/// A motion in rows, with what limits it: ready to be written. Angles are in rad, times in s.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Sampled {
+    /// Seconds from start to end.
+    pub total_time: f64,
+    /// The limits of speed.
+    pub speed: Vec<f64>,
+    /// The limits of acceleration.
+    pub acceleration: Vec<f64>,
+    /// [`Trajectory::bindings`].
+    pub bindings: Vec<Binding>,
+    /// [`Trajectory::path_error`].
+    pub path_error: Vec<f64>,
+    /// [`Trajectory::rows`].
+    pub rows: Vec<Row>,
 }
 
 /// How long a limit is what keeps the robot from being faster.
@@ -127,6 +146,23 @@ impl Trajectory {
         // The last one is not wanted twice.
         let count = (self.total * rate * (1.0 - 1e-12)).ceil() as usize;
         (0..count).map(move |i| i as f64 / rate).chain([self.total]).map(|time| self.at(time))
+    }
+
+    /// Whether a rate is positive and gives a number of rows that makes sense, at most 10⁷.
+    pub fn is_usable_rate(&self, rate: f64) -> bool {
+        rate > 0.0 && self.total * rate <= MOST_ROWS
+    }
+
+    /// Returns all there is to write of the motion, with `rate` rows a second.
+    pub fn sampled(&self, rate: f64) -> Sampled {
+        Sampled {
+            total_time: self.total,
+            speed: self.limits.speed.clone(),
+            acceleration: self.limits.acceleration.clone(),
+            bindings: self.bindings(),
+            path_error: self.path_error.clone(),
+            rows: self.rows(rate).collect(),
+        }
     }
 
     /// Returns which limits bind, the longest first.
