@@ -42,6 +42,10 @@ mod _native {
     #[pymodule_export]
     use super::{catalogue, coarse_depth, run_command, schema, write};
 
+    /// Greatest depth of boxes.
+    #[pymodule_export]
+    const MAX_DEPTH: u32 = aspecta::paving::MAX_DEPTH;
+
     /// The version of the package.
     #[pymodule_export]
     const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -71,8 +71,15 @@ impl Map {
         poses: PyReadonlyArray2<'py, f64>,
         mode: &str,
     ) -> PyResult<Vec<Location>> {
-        let mode: WorkingMode = mode.parse().map_err(error::of)?;
+        let mode = self.0.robot.working_mode(mode).map_err(error::of)?;
         let (count, width) = (poses.as_array().nrows(), poses.as_array().ncols());
+        let dof = self.0.robot.dof();
+        if width != dof {
+            let name = &self.0.robot.name;
+            return Err(error::Error::new_err(format!(
+                "a pose of `{name}` has {dof} coordinates, not {width}"
+            )));
+        }
         let values = poses.as_slice()?;
         let row = |k: usize| self.location(&values[k * width..(k + 1) * width], mode);
         Ok(threads::detached(py, || work::map_range(count, row)))

@@ -43,6 +43,16 @@ def test_slices_modes_and_budgets() -> None:
         aspecta.Robot("hexa").analyze()
 
 
+@pytest.mark.parametrize(
+    "budget",
+    [{"depth": 0}, {"depth": 99}, {"boxes": -1}, {"boxes": 1.5}, {"resolution": 0.0}, {"seconds": float("nan")}],
+)
+def test_budgets_that_make_no_sense_are_refused(five_bar: aspecta.Robot, budget: dict[str, float]) -> None:
+    (name,) = budget
+    with pytest.raises(aspecta.Error, match=f"{name} = .*: give a"):
+        five_bar.analyze(**budget)  # type: ignore[arg-type]
+
+
 def test_aspects_at_a_pose(analysis: aspecta.Analysis) -> None:
     assert [(a.id, a.mode, a.det_a) for a in analysis.at([4, 7])] == [
         (1, "++", "+"),
@@ -104,6 +114,10 @@ def test_plans_are_proved_and_refusals_say_why(analysis: aspecta.Analysis, five_
         a, b = (x.pose for x in analysis.aspects if x.id in (4, 5))
         analysis.plan(a, b, mode="+-")
     assert refusal.value.proved
+    with pytest.raises(aspecta.Error, match="weight = nan"):
+        five_bar.plan([4, 7], [5, 6], mode="++", weight=float("nan"))
+    with pytest.raises(aspecta.Error, match="3 limits of speed"):
+        five_bar.plan([4, 7], [5, 6], mode="++").time([1, 2, 3], 1)
     with pytest.raises(aspecta.Error, match="working mode"):
         five_bar.plan([4, 7], [5, 6], mode="+++")
 
@@ -123,9 +137,18 @@ def test_modes_traverse_and_assembly_are_those_of_the_command_line(
     told = answer("traverse", "five-bar", "--box", "2:6,8:10")
     assert held.holds is True and held.classes == told["classes"]
     assert analysis.traverse(disc=[(4, 4), (9, 9)], radius=1).holds is True
+    assert analysis.traverse(disc=[4, 9], radius=1) == analysis.traverse(disc=[(4, 4), (9, 9)], radius=1)
     assert analysis.traverse(poses=[[4, 7], [40, 7]]).holds is False
     assert analysis.traverse(paths=[[[4, 7], [5, 6]]]).holds is True
-    for wrong in ({}, {"box": [[1, 2]]}, {"disc": [(4, 4), (9, 9)]}, {"ball": [(0, 0), (0, 0)], "radius": 1}):
+    for wrong in (
+        {},
+        {"box": [[1, 2]]},
+        {"box": [[6, 2], [8, 10]]},
+        {"disc": [4, 9], "radius": -1},
+        {"disc": [(1, 4), 9], "radius": 1},
+        {"disc": [(4, 4), (9, 9)]},
+        {"ball": [(0, 0), (0, 0)], "radius": 1},
+    ):
         with pytest.raises(aspecta.Error):
             analysis.traverse(**wrong)  # type: ignore[arg-type]
     q = five_bar.ik([4, 7])[0].q
@@ -143,6 +166,13 @@ def test_maps_locate_and_pickle(analysis: aspecta.Analysis, tmp_path: Path) -> N
         assert (here.aspect, here.region, here.domains) == (1, 1, (1,)) and nowhere.nowhere == "leg 1 does not reach"
         assert each.locate([4, 7], "++") == here
     assert "uniqueness" in found.domains(1).to_dict() and "Basic regions" in str(found.domains(1))
+    assert found.locate([4, 7], "left,left") == found.locate([4, 7], "++")
+    for pose, mode in (([4, 7], "+++"), ([4, 7, 1], "++")):
+        with pytest.raises(aspecta.Error):
+            found.locate(pose, mode)
+    for wrong in ({"cells": 1}, {"cells": -1}, {"samples": -1}):
+        with pytest.raises(aspecta.Error, match="give a whole number"):
+            analysis.domains(1, **wrong)
     with pytest.raises(KeyError):
         found.domains(2)
     with pytest.raises(aspecta.Error, match="no aspect 11"):

@@ -63,6 +63,46 @@ def rows(values: ArrayLike) -> list[list[float]]:
     return [[float(x) for x in row] for row in np.atleast_2d(np.asarray(values, dtype=float))]
 
 
+def whole(name: str, value: int | None, low: int, high: int | None = None) -> int | None:
+    """Return a whole number, if one is given, that lies within bounds."""
+    if value is None:
+        return None
+    bounds = f"from {low} on" if high is None else f"from {low} to {high}"
+    if value != int(value) or value < low or (high is not None and value > high):
+        raise Error(f"{name} = {value}: give a whole number {bounds}")
+    return int(value)
+
+
+def positive(name: str, value: float | None) -> float | None:
+    """Return a number, if one is given, that is positive and finite."""
+    if value is not None and not (value > 0 and math.isfinite(value)):
+        raise Error(f"{name} = {value}: give a positive number")
+    return value
+
+
+def wishes(weight: float, avoid: tuple[float, float]) -> tuple[float, float, float]:
+    """Return what is wished of a plan: the weight of nearness to singularities, and the margins."""
+    if not 0 <= weight <= 64:
+        raise Error(f"weight = {weight}: give a number from 0 to 64")
+    return float(weight), float(avoid[0]), float(avoid[1])
+
+
+def ranges(kind: str, values: Any, names: list[str]) -> list[tuple[float, float]]:
+    """Return a range per coordinate, of each of which a value or (low, high) is given."""
+    found = [(float(value), float(value)) if np.ndim(value) == 0 else _ends(value) for value in values]
+    if len(found) != len(names):
+        raise Error(f"{kind}: give {len(names)} ranges or values, one per coordinate ({', '.join(names)})")
+    for name, (low, high) in zip(names, found, strict=True):
+        if low > high:
+            raise Error(f"{kind}: the range of {name} ends before it begins")
+    return found
+
+
+def _ends(values: Any) -> tuple[float, float]:
+    low, high = values
+    return float(low), float(high)
+
+
 def plain(value: Any) -> Any:
     """Return data as TOML has it: arrays and tuples as lists, hyphens in keys, nothing that is None."""
     if isinstance(value, Mapping):

@@ -24,6 +24,7 @@ __all__ = [
     "NoPlan",
     "Partial",
     "Robot",
+    "MAX_DEPTH",
     "VERSION",
     "catalogue",
     "coarse_depth",
@@ -40,6 +41,7 @@ __all__ = [
     "write",
 ]
 
+MAX_DEPTH: int
 VERSION: str
 
 class Error(ValueError): ...

@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Range = tuple[float, float]
+#: A value or a range (low, high) per coordinate.
+Ranges = Sequence[float | Sequence[float]] | NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -215,6 +217,8 @@ class Analysis(Result):
         if missing:
             raise _native.Error(f"there is no aspect {min(missing)}: {len(self.aspects)} were found, numbered from 1")
         boxes = self._boxes()
+        _input.whole("cells", cells, 2, 2000)
+        _input.whole("samples", samples, 0)
         return kept(lambda: boxes.domains(chosen, cells, samples, reporter(progress)), Map)
 
     def modes(self, *, progress: Progress = None) -> ModeGraph:
@@ -229,9 +233,9 @@ class Analysis(Result):
     def traverse(
         self,
         *,
-        box: ArrayLike | None = None,
-        disc: ArrayLike | None = None,
-        ball: ArrayLike | None = None,
+        box: Ranges | None = None,
+        disc: Ranges | None = None,
+        ball: Ranges | None = None,
         radius: float | None = None,
         poses: ArrayLike | None = None,
         paths: Sequence[ArrayLike] | None = None,
@@ -240,9 +244,9 @@ class Analysis(Result):
     ) -> Traversability:
         """Return which aspects hold a whole set of poses. Give one of:
 
-        ``box``: a range (low, high) per coordinate, (dof, 2).
-        ``disc`` or ``ball``: likewise, x and y (and z) within ``radius`` of the middle of their ranges; with a range of z a
-        disc is a cylinder.
+        ``box``: a range (low, high), or a value, per coordinate.
+        ``disc`` or ``ball``: likewise, x and y (and z) being those of the centre, within ``radius`` of which the poses lie; with
+        a range of z a disc is a cylinder.
         ``poses``: separate poses (n, dof), to be visited in any order. ``paths``: polylines, each (n, dof).
         """
         sets = {"box": box, "disc": disc, "ball": ball, "poses": poses, "paths": paths}
@@ -252,23 +256,19 @@ class Analysis(Result):
         kind, value = given[0], sets[given[0]]
         if (kind in ("disc", "ball")) != (radius is not None):
             raise _native.Error("radius is that of a disc or of a ball: give both, or neither")
-        ranges: list[Range] = []
-        lists: list[list[list[float]]] = []
-        if kind == "paths":
-            assert paths is not None
-            lists = [_input.rows(path) for path in paths]
-        elif kind == "poses":
-            assert value is not None
-            lists = [_input.rows(value)]  # type: ignore[arg-type]
-        else:
-            ranges = [(float(lo), float(hi)) for lo, hi in np.asarray(value, dtype=float)]
-            if len(ranges) != self.robot.dof:
-                raise _native.Error(f"{kind}: give {self.robot.dof} ranges, one per coordinate {self.robot.pose_names}")
+        _input.positive("radius", radius)
+        names = self.robot.pose_names
         round_in = {"disc": ["x", "y"], "ball": ["x", "y", "z"]}.get(kind, [])
-        try:
-            round_axes = [self.robot.pose_names.index(name) for name in round_in]
-        except ValueError:
-            raise _native.Error(f"a pose of `{self.robot.name}` has no {', '.join(round_in)}: give a box") from None
+        if not set(round_in) <= set(names):
+            raise _native.Error(f"a pose of `{self.robot.name}` has no {', '.join(round_in)}: give a box")
+        round_axes = [names.index(name) for name in round_in]
+        ranges = _input.ranges(kind, value, names) if kind in ("box", "disc", "ball") else []
+        for k in round_axes:
+            if ranges[k][0] != ranges[k][1]:
+                raise _native.Error(f"{kind}: give one value of {names[k]}, that of the centre")
+        lists = [_input.rows(path) for path in paths or ()]
+        if poses is not None:
+            lists = [_input.rows(poses)]
         name = "round" if round_in else kind
         found = self._boxes().traverse(
             name, ranges, round_axes, radius or 0.0, lists, through_modes, reporter(progress)
@@ -298,6 +298,6 @@ class Analysis(Result):
             Error: a pose is not one of the robot in that mode.
         """
         ends = [_input.vector(end) for end in (start, goal)]
-        wanted = (float(weight), float(avoid[0]), float(avoid[1]))
+        wanted = _input.wishes(weight, avoid)
         modes = [self.robot._known(mode), self.robot._known(to_mode or mode)]
         return Plan(*self._boxes().plan(ends, modes, through_modes, wanted, reporter(progress)))

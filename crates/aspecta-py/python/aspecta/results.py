@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from aspecta import _native
+from aspecta import _input, _native
 from aspecta._result import Result
 
 if TYPE_CHECKING:
@@ -168,7 +168,7 @@ def timed(
     dof = len(pieces[0][2][0]) if pieces and pieces[0][2] else 1
 
     def each(limit: float | Sequence[float]) -> list[float]:
-        return [float(x) for x in np.broadcast_to(np.asarray(limit, dtype=float), (dof,))]
+        return _input.vector(limit) if np.ndim(limit) else [float(limit)] * dof  # type: ignore[arg-type]
 
     return Motion(_native.trajectory(pieces, each(speed), each(acceleration), float(rate)))
 

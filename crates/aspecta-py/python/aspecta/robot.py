@@ -331,7 +331,12 @@ class Robot:
         wanted = [modes] if isinstance(modes, str) else list(modes)
         held = _input.held(fix, self._coordinates)
         known = [self._known(mode) for mode in wanted]
-        budget = (seconds, boxes, depth, resolution)
+        budget = (
+            _input.positive("seconds", seconds),
+            _input.whole("boxes", boxes, 1),
+            _input.whole("depth", depth, 1, _native.MAX_DEPTH),
+            _input.positive("resolution", resolution),
+        )
         return kept(
             lambda: self._native.analyze(held, known, *budget, certificate, reporter(progress)),
             lambda native: Analysis(self, native),
@@ -341,13 +346,13 @@ class Robot:
         self,
         *,
         modes: str | Sequence[str] = (),
-        samples: int = 4096,
+        samples: int = 1024,
         seconds: float | None = None,
         progress: Progress = None,
     ) -> Exploration:
         """Explore the classes of a robot with six coordinates by roadmaps whose segments are proved."""
         wanted = [modes] if isinstance(modes, str) else list(modes)
-        effort = (samples, seconds)
+        effort = _effort(samples, seconds)
         known = [self._known(mode) for mode in wanted]
         return kept(lambda: _native.explore(self._native, known, effort, reporter(progress)), Exploration)
 
@@ -363,7 +368,11 @@ class Robot:
         ``fix={"q1": 14.98}``, proved; without ``fix``, of a robot with three coordinates, the curves they form.
         """
         held = _input.held(fix, self._motors)
-        return Cusps(_native.cusps(self._native, held, mode and self._known(mode), boxes, reporter(progress)))
+        return Cusps(
+            _native.cusps(
+                self._native, held, mode and self._known(mode), _input.whole("boxes", boxes, 1), reporter(progress)
+            )
+        )
 
     # Paths.
 
@@ -435,13 +444,13 @@ class Robot:
         mode; the aspects of others are found in boxes of the given ``depth`` (default: as fine as it takes, within reason).
         """
         ends = [_input.vector(start), _input.vector(goal)]
-        wanted = (float(weight), float(avoid[0]), float(avoid[1]))
+        wanted = _input.wishes(weight, avoid)
         mode, to_mode = self._known(mode), None if to_mode is None else self._known(to_mode)
         through = through_modes or to_mode not in (None, mode)
         if self.platform == "free-body":
             if through:
                 raise _native.Error("changes of working mode are not planned for free bodies")
-            effort = (samples, seconds)
+            effort = _effort(samples, seconds)
             found = _native.plan_over_roadmap(self._native, ends, mode, wanted, effort, reporter(progress))
             return Plan(*found)
         straight = None if through else self._native.straight(ends, mode, wanted)
@@ -485,7 +494,7 @@ class Robot:
     ) -> AssemblyModes | JoinedSolutions:
         """Return the direct solutions of a joint vector q (dof,), by aspect; of a free body, by what a roadmap joins."""
         if self.platform == "free-body":
-            effort = (samples, seconds)
+            effort = _effort(samples, seconds)
             return JoinedSolutions(_native.join_solutions(self._native, _input.vector(q), effort, reporter(progress)))
         modes = [] if self.dof == 2 else sorted({s.mode for s in self.fk(q)})
         return self.analyze(
@@ -516,3 +525,9 @@ class Robot:
         elif given.shape[-2:] == (4, 4) and given.ndim <= 3:
             given = poses.from_matrix(self.platform, given)
         return _input.fitting(given, self._coordinates, self.name)
+
+
+def _effort(samples: int, seconds: float | None) -> tuple[int, float | None]:
+    """How long a roadmap may grow."""
+    _input.whole("samples", samples, 1)
+    return samples, _input.positive("seconds", seconds)
