@@ -7,6 +7,7 @@ use aspecta::certificate::CertificateError;
 use aspecta::domain::DomainError;
 use aspecta::domain::cusps::CuspError;
 use aspecta::kinematics::KinematicsError;
+use aspecta::kinematics::start::NoStart;
 use aspecta::motion::PathError;
 use aspecta::motion::explore::ExploreError;
 use aspecta::motion::follow::StartError;
@@ -64,6 +65,9 @@ pub enum Failure {
     /// Following cannot start.
     #[error("{error}{}", advice::on_start(.0), error = .0)]
     Start(#[from] StartError),
+    /// There is no configuration to start from.
+    #[error("{error}{}", advice::on_no_start(.0), error = .0)]
+    NoStart(#[from] NoStart),
     /// The directory of `--out` cannot be written to.
     #[error("--out {}: {error}", directory.display())]
     Directory {

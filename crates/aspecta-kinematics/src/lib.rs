@@ -21,6 +21,7 @@ pub mod parallel_rods;
 pub mod path;
 pub mod placement;
 mod singularity;
+pub mod start;
 mod velocities;
 
 pub use architecture::{Architecture, architecture};

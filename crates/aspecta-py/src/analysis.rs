@@ -3,8 +3,8 @@
 use crate::error;
 use crate::map::Map;
 use crate::threads;
-use crate::watch::watched;
-use aspecta::domain::DomainOptions;
+use crate::watch::{watched, watched_within};
+use aspecta::domain::{DomainOptions, Surfaces};
 use aspecta::kinematics::constraints::Margins;
 use aspecta::motion::modes::Configuration;
 use aspecta::text::{AnalysisAdvice, AnalysisSummary};
@@ -76,6 +76,11 @@ impl Analysis {
         (corners(|cell| cell.lo), corners(|cell| cell.hi), aspects)
     }
 
+    /// The picture of the aspects of a robot or a slice with one or two coordinates, as SVG.
+    fn picture(&self, py: Python<'_>) -> Option<String> {
+        threads::detached(py, || aspecta_view::report::overview(&self.0))
+    }
+
     /// The proof of the count, as JSON, if it was kept.
     fn certificate(&self) -> PyResult<Option<String>> {
         self.0.certificate.as_ref().map(aspecta::Certificate::to_json).transpose().map_err(error::of)
@@ -87,23 +92,28 @@ impl Analysis {
     }
 
     /// The map of some aspects.
+    #[expect(clippy::too_many_arguments, reason = "an argument is a keyword of Python's")]
     fn domains(
         &self,
         py: Python<'_>,
         aspects: Vec<usize>,
         cells: Option<usize>,
         samples: Option<usize>,
+        surfaces: Option<bool>,
+        seconds: Option<f64>,
         progress: Option<Bound<'_, PyAny>>,
     ) -> PyResult<Py<PyAny>> {
         let analysis = Arc::clone(&self.0);
         let usual = DomainOptions::usual(&analysis.robot, analysis.window.axes().len());
         let options =
             DomainOptions { cells: cells.unwrap_or(usual.cells), samples: samples.unwrap_or(usual.samples) };
-        let found = watched(py, progress.as_ref(), move |control| {
+        // Curves take no time; surfaces may take as long as the regions.
+        let with_surfaces = surfaces.unwrap_or(analysis.window.axes().len() == 2);
+        let found = watched_within(py, seconds, progress.as_ref(), move |control| {
             let mut sheets = Vec::new();
             for number in aspects {
-                match aspecta::domains(&analysis, AspectId::new(number), &options, control) {
-                    Ok(domains) => sheets.push(MappedAspect { domains, surfaces: None }),
+                match mapped(&analysis, AspectId::new(number), &options, with_surfaces, control) {
+                    Ok(sheet) => sheets.push(sheet),
                     // What is done is kept.
                     Err(_) if control.is_cancelled() => break,
                     Err(error) => return Err(error),
@@ -115,10 +125,15 @@ impl Analysis {
     }
 
     /// The graph of aspects and changes of mode, as JSON.
-    fn modes(&self, py: Python<'_>, progress: Option<Bound<'_, PyAny>>) -> PyResult<(String, String)> {
+    fn modes(
+        &self,
+        py: Python<'_>,
+        seconds: Option<f64>,
+        progress: Option<Bound<'_, PyAny>>,
+    ) -> PyResult<(String, String)> {
         let analysis = Arc::clone(&self.0);
-        let graph =
-            watched(py, progress.as_ref(), move |control| ModeGraph::new(&analysis, control))?.whole()?;
+        let look = move |control: &Control<'_>| ModeGraph::new(&analysis, control);
+        let graph = watched_within(py, seconds, progress.as_ref(), look)?.whole()?;
         Ok((error::json(&graph)?, aspecta_view::mode_graph(&self.0.robot, &graph)))
     }
 
@@ -181,6 +196,22 @@ impl Analysis {
         })?;
         planned(&found.whole()?.map_err(|refusal| error::no_plan(py, &refusal))?)
     }
+}
+
+/// An aspect cut into its regions, and the surfaces that bound them if they are wanted.
+fn mapped(
+    analysis: &aspecta::Analysis,
+    id: AspectId,
+    options: &DomainOptions,
+    with_surfaces: bool,
+    control: &Control<'_>,
+) -> Result<MappedAspect, aspecta::Error> {
+    let domains = aspecta::domains(analysis, id, options, control)?;
+    if !with_surfaces {
+        return Ok(MappedAspect { domains, surfaces: None });
+    }
+    let surfaces = Surfaces::of(analysis, &domains, options.cells)?;
+    Ok(MappedAspect::with_surfaces(domains, surfaces, &analysis.window))
 }
 
 /// The weight of nearness to singularities, and the margins from parallel and serial ones.

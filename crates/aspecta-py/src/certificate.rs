@@ -1,15 +1,21 @@
 //! Certificates, checked.
 
 use crate::error;
-use crate::watch::watched;
+use crate::watch::watched_within;
 use aspecta::Certificate;
 use pyo3::prelude::*;
 
 /// Checks the certificate in a JSON text by code that shares next to nothing with what wrote it. Returns the verdict as
 /// JSON, its summary, and whether it is verified.
 #[pyfunction]
-pub fn verify(py: Python<'_>, certificate: &[u8], progress: Option<Bound<'_, PyAny>>) -> PyResult<Py<PyAny>> {
+pub fn verify(
+    py: Python<'_>,
+    certificate: &[u8],
+    seconds: Option<f64>,
+    progress: Option<Bound<'_, PyAny>>,
+) -> PyResult<Py<PyAny>> {
     let certificate = Certificate::from_json(certificate).map_err(error::of)?;
-    let found = watched(py, progress.as_ref(), move |control| aspecta::verify(&certificate, control))?;
+    let check = move |control: &aspecta::Control<'_>| aspecta::verify(&certificate, control);
+    let found = watched_within(py, seconds, progress.as_ref(), check)?;
     found.or_partial(py, |verdict| Ok((error::json(&verdict)?, verdict.to_string(), verdict.is_verified())))
 }

@@ -12,6 +12,7 @@ mod map;
 mod path;
 mod roadmap;
 mod robot;
+mod surface;
 mod threads;
 mod watch;
 
@@ -37,6 +38,8 @@ mod _native {
     use super::roadmap::{cusps, explore, join_solutions, plan_over_roadmap};
     #[pymodule_export]
     use super::robot::Robot;
+    #[pymodule_export]
+    use super::threads::set_threads;
     #[pymodule_export]
     use super::watch::Partial;
     #[pymodule_export]

@@ -3,7 +3,7 @@
 use crate::analysis::{Planned, Wanted, plan_options, planned};
 use crate::error;
 use crate::robot::Robot;
-use crate::watch::watched;
+use crate::watch::{watched, watched_within};
 use aspecta::kinematics::cusps::cusp_curves;
 use aspecta::motion::explore::{self as roadmap, NoWay};
 use aspecta::{CuspOptions, Effort, Kinematics, LegIndex};
@@ -74,6 +74,7 @@ pub fn cusps(
     fix: Vec<(usize, f64)>,
     mode: Option<&str>,
     boxes: Option<u64>,
+    seconds: Option<f64>,
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<String> {
     let usual = CuspOptions::default();
@@ -81,7 +82,7 @@ pub fn cusps(
     let fix = fix.into_iter().map(|(joint, value)| (LegIndex::new(joint), value)).collect();
     let options = CuspOptions { fix, mode, boxes: boxes.or(usual.boxes) };
     let robot = Arc::clone(&robot.robot);
-    let found = watched(py, progress.as_ref(), move |control| {
+    let found = watched_within(py, seconds, progress.as_ref(), move |control| {
         let curves = options.fix.is_empty() && robot.dof() == 3;
         Ok::<_, aspecta::Error>(if curves {
             serde_json::to_string(&cusp_curves(&robot, &options, control)?)?

@@ -5,7 +5,7 @@ use crate::batch::{Columns, Parts, parts};
 use crate::error;
 use crate::threads;
 use crate::watch::watched;
-use aspecta::kinematics::{DirectSolutions, KinematicsError};
+use aspecta::kinematics::{DirectSolutions, KinematicsError, start};
 use aspecta::paving::Budget;
 use aspecta::robot::work;
 use aspecta::{Kinematics, Options, Solution, WorkingMode};
@@ -222,15 +222,21 @@ impl Robot {
     }
 
     /// The robot as a model for MuJoCo that starts in this configuration, and the names of limits it lacks.
-    fn mjcf(&self, pose: Vec<f64>, mode: &str) -> PyResult<(String, Vec<String>)> {
-        let mode = self.mode(mode)?;
-        let solutions = self.robot.inverse(&pose).map_err(error::of)?;
-        let start = solutions.iter().find(|s| s.mode == mode);
-        let start =
-            start.ok_or_else(|| error::Error::new_err(format!("no inverse solution in mode {mode}")))?;
+    fn mjcf(
+        &self,
+        py: Python<'_>,
+        pose: Option<Vec<f64>>,
+        mode: Option<&str>,
+    ) -> PyResult<(String, Vec<String>)> {
+        let mode = mode.map(|mode| self.mode(mode)).transpose()?;
+        let start = threads::detached(py, || match &pose {
+            Some(pose) => start::at(&self.robot, pose, mode),
+            None => start::anywhere(&self.robot, mode),
+        });
+        let start = start.map_err(error::of)?;
         let left_out = aspecta_view::mjcf::left_out(&self.robot);
         let left_out = left_out.iter().map(ToString::to_string).collect();
-        Ok((aspecta_view::mjcf::model(&self.robot, start), left_out))
+        Ok((aspecta_view::mjcf::model(&self.robot, &start), left_out))
     }
 }
 

@@ -112,6 +112,16 @@ pub fn watched<T: Send + 'static>(
     progress: Option<&Bound<'_, PyAny>>,
     work: impl FnOnce(&Control<'_>) -> T + Send + 'static,
 ) -> PyResult<Watched<T>> {
+    watched_within(py, None, progress, work)
+}
+
+/// As [`watched`]; after so many seconds the work is told to stop, and waited for.
+pub fn watched_within<T: Send + 'static>(
+    py: Python<'_>,
+    seconds: Option<f64>,
+    progress: Option<&Bound<'_, PyAny>>,
+    work: impl FnOnce(&Control<'_>) -> T + Send + 'static,
+) -> PyResult<Watched<T>> {
     let shared = Arc::new(Shared::default());
     let (done, mut results) = mpsc::channel();
     let theirs = Arc::clone(&shared);
@@ -122,11 +132,19 @@ pub fn watched<T: Send + 'static>(
         // Nobody may be waiting any more.
         drop(done.send(result));
     })?;
+    // A time too long to be told is no limit.
+    let mut left = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
     loop {
         let coming = &mut results;
-        match py.detach(move || coming.recv_timeout(TICK)) {
+        let tick = left.map_or(TICK, |left| left.min(TICK));
+        match py.detach(move || coming.recv_timeout(tick)) {
             Ok(result) => return Ok(Watched::Done(result)),
-            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Timeout) => {
+                left = left.and_then(|left| left.checked_sub(tick)).filter(|left| !left.is_zero());
+                if seconds.is_some() && left.is_none() {
+                    shared.cancelled.store(true, Ordering::Relaxed);
+                }
+            }
             Err(RecvTimeoutError::Disconnected) => match worker.join() {
                 Err(panic) => resume_unwind(panic),
                 Ok(()) => unreachable!("a worker sends its result"),

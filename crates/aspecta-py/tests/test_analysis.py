@@ -64,6 +64,25 @@ def test_aspects_at_a_pose(analysis: aspecta.Analysis) -> None:
     assert analysis.at([40, 7]) == []
 
 
+def test_a_notebook_shows_tables_and_pictures(analysis: aspecta.Analysis) -> None:
+    shown = analysis._repr_html_()
+    assert shown.count("<tr>") == 9 and "<svg" in shown and "exactly 10" in shown
+    # Of three coordinates there is no one picture.
+    body = aspecta.Robot("3-rpr").analyze(depth=3)
+    assert "<table" in body._repr_html_() and "<svg" not in body._repr_html_()
+    line = aspecta.Robot("3-rrr").analyze(fix={"phi": 0, "y": 0}, depth=6)
+    assert "<svg" in line._repr_html_()
+    solutions = analysis.robot.ik([4, 7])._repr_html_()
+    assert solutions.count("<tr>") == 5 and "156.702" in solutions
+    assert "0 solutions" in analysis.robot.ik([40, 7])._repr_html_()
+
+
+def test_aspects_as_data_frames(analysis: aspecta.Analysis) -> None:
+    for frame in (analysis.to_pandas(), analysis.to_polars()):
+        assert list(frame.columns) == ["id", "mode", "det_a", "measure", "pieces", "x1", "x2", "q1", "q2"]
+        assert list(frame["id"]) == list(range(1, 11)) and frame["measure"][0] == analysis.aspects[0].measure
+
+
 def test_a_pickled_analysis_holds_its_answers(analysis: aspecta.Analysis) -> None:
     again = pickle.loads(pickle.dumps(analysis))
     assert again.aspects == analysis.aspects and str(again) == str(analysis) and again.robot == analysis.robot
@@ -139,6 +158,9 @@ def test_modes_traverse_and_assembly_are_those_of_the_command_line(
     assert analysis.traverse(disc=[(4, 4), (9, 9)], radius=1).holds is True
     assert analysis.traverse(disc=[4, 9], radius=1) == analysis.traverse(disc=[(4, 4), (9, 9)], radius=1)
     assert analysis.traverse(poses=[[4, 7], [40, 7]]).holds is False
+    some = analysis.traverse(box=[[2, 6], [8, 10]], mode="left,right", det_a="+")
+    assert [(c["mode"], c["det_a"]) for c in some.classes] == [("+-", "+")]
+    assert some.classes == answer("traverse", "five-bar", "--box=2:6,8:10", "--mode=+-", "--det=+")["classes"]
     assert analysis.traverse(paths=[[[4, 7], [5, 6]]]).holds is True
     for wrong in (
         {},
@@ -156,36 +178,15 @@ def test_modes_traverse_and_assembly_are_those_of_the_command_line(
     assert len(aspecta.Robot("3-rpr").assembly([14.98, 15.38, 12], seconds=20).solutions) == 6
 
 
-def test_maps_locate_and_pickle(analysis: aspecta.Analysis, tmp_path: Path) -> None:
-    found = analysis.domains([1, 3], cells=60, samples=2000)
-    assert found.aspects == [1, 3] and found.robot == "five-bar"
-    path = tmp_path / "five-bar.aspecta"
-    found.save(path)
-    for each in (found, aspecta.Map.load(path), pickle.loads(pickle.dumps(found))):
-        here, nowhere = each.locate([[4, 7], [40, 7]], "++")
-        assert (here.aspect, here.region, here.domains) == (1, 1, (1,)) and nowhere.nowhere == "leg 1 does not reach"
-        assert each.locate([4, 7], "++") == here
-    assert "uniqueness" in found.domains(1).to_dict() and "Basic regions" in str(found.domains(1))
-    assert found.locate([4, 7], "left,left") == found.locate([4, 7], "++")
-    for pose, mode in (([4, 7], "+++"), ([4, 7, 1], "++")):
-        with pytest.raises(aspecta.Error):
-            found.locate(pose, mode)
-    for wrong in ({"cells": 1}, {"cells": -1}, {"samples": -1}):
-        with pytest.raises(aspecta.Error, match="give a whole number"):
-            analysis.domains(1, **wrong)
-    with pytest.raises(KeyError):
-        found.domains(2)
-    with pytest.raises(aspecta.Error, match="no aspect 11"):
-        analysis.domains(11)
-    (tmp_path / "none.aspecta").write_bytes(b"none")
-    with pytest.raises(aspecta.Error):
-        aspecta.Map.load(tmp_path / "none.aspecta")
-
-
 def test_cusps_and_exploration() -> None:
     cusps = aspecta.Robot("3-rpr").cusps(fix={"q1": 14.98})
     told = answer("cusps", "3-rpr", "--fix", "q1=14.98")
     assert cusps.to_dict()["cusps"] == told["cusps"] and cusps.complete
+    assert str(cusps).startswith("6 cusps, proved to be all\n") and str(cusps).count("beyond limits") == 2
+    curves = aspecta.Robot("3-rpr").cusps(boxes=1000)
+    assert str(curves) == f"0 curves of cusps, of {len(curves.slices)} slices"
+    joined = aspecta.Robot("gough-stewart").assembly([1, 0.645275, 1.086284, 1.503439, 1.281933, 0.771071], samples=50)
+    assert str(joined).startswith("40 direct solutions, all of them\n  ------  det A +  joined by proved motions: ")
     explored = aspecta.Robot("gough-stewart").explore(samples=50)
     assert explored.to_dict() == {
         k: v for k, v in answer("explore", "gough-stewart", "--samples", "50").items() if k != "format_version"
@@ -202,5 +203,7 @@ def test_pictures_and_reports(analysis: aspecta.Analysis, tmp_path: Path) -> Non
         body.plot()
     assert body.plot(at={"phi": 0.1}).get_ylabel() == "y"
     assert aspecta.Robot("3-rrr").analyze(fix={"phi": 0, "y": 0}, depth=8).plot().get_xlabel() == "x"
+    with pytest.raises(aspecta.Error, match="`z` does not vary"):
+        body.plot(at={"z": 0})
     report = analysis.report(tmp_path / "report")
     assert report.name == "report.html" and "<svg" in report.read_text()

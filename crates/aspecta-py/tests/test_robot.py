@@ -123,3 +123,11 @@ def test_the_command_comes_with_the_package() -> None:
     assert command("--version").stdout == f"aspecta {aspecta.__version__}\n"
     refused = command("ik", "five-bar", "--pose", "1,2,3")
     assert refused.returncode == 2 and "not 3" in refused.stderr
+
+
+def test_a_model_for_mujoco_needs_no_pose() -> None:
+    robot = aspecta.Robot("3-rrr")
+    assert robot.to_mjcf(mode="+-+") == command("export", "mjcf", "3-rrr", "--mode=+-+").stdout
+    assert robot.to_mjcf() == command("export", "mjcf", "3-rrr").stdout
+    with pytest.raises(aspecta.Error, match="out of reach of leg 1"):
+        robot.to_mjcf([400, 0, 0], "+++")

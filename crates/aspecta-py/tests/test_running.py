@@ -37,6 +37,31 @@ def test_processes_get_robots_and_give_solutions_back(method: str) -> None:
         assert pool.apply_async(count, ("five-bar",)).get(60) == (10, 10)
 
 
+def test_a_time_ends_work_and_keeps_what_there_is(five_bar: aspecta.Robot) -> None:
+    certificate = five_bar.analyze(certificate=True).certificate
+    assert certificate is not None
+    ended = certificate.verify(seconds=1e-9)
+    assert not ended and not ended.verified and certificate.verify(seconds=1e9)
+    found = aspecta.Robot("3-rrr").analyze(depth=4)
+    assert found.domains(cells=200, surfaces=False, seconds=1e-9).aspects == []
+    assert not found.modes(seconds=1e-9).searched and five_bar.analyze().modes().searched
+    assert not aspecta.Robot("3-rpr").cusps(fix={"q1": 14.98}, seconds=1e-9).complete
+    with pytest.raises(aspecta.Error, match="seconds = 0"):
+        certificate.verify(seconds=0)
+
+
+def test_the_number_of_threads_is_chosen(five_bar: aspecta.Robot) -> None:
+    try:
+        aspecta.set_threads(1)
+        alone = five_bar.analyze(depth=6).classes
+        aspecta.set_threads(3)
+        assert five_bar.analyze(depth=6).classes == alone
+    finally:
+        aspecta.set_threads(None)
+    with pytest.raises(aspecta.Error, match="count = 0"):
+        aspecta.set_threads(0)
+
+
 def test_ctrl_c_raises_and_keeps_what_there_is() -> None:
     script = """
 import _thread, threading, aspecta

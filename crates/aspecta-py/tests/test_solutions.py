@@ -7,27 +7,7 @@ import numpy as np
 import pytest
 
 import aspecta
-from conftest import CATALOGUE, answer
-
-POSES = {
-    "five-bar": [4, 7],
-    "symmetric-five-bar": [0, 100],
-    "2-prr": [0, 200],
-    "3-rrr": [-15.468, 0.781, 0.073],
-    "3-prr": [0, 0, 0.8],
-    "3-rpr": [-8, 9, 0],
-    "delta": [10, 20, -900],
-    "irb-360": [10, 20, -1000],
-    "linear-delta": [0, 0, 50],
-    "orthoglide": [1, 2, 3],
-    "spherical-3-rrr": [0.1, 0, 0.2],
-    "hexa": [10, 0, -700, 0.1, 0, 0],
-    "gough-stewart": [0.2, 0.1, 0.9, 0.5, 1.4, 0.2],
-}
-
-
-def text(numbers: Any) -> str:
-    return ",".join(map(repr, np.asarray(numbers, dtype=float).tolist()))
+from conftest import CATALOGUE, POSES, answer, text
 
 
 def same(found: aspecta.SolutionList, told: list[dict[str, Any]]) -> None:
@@ -86,8 +66,8 @@ def test_a_batch_is_a_sequence_and_a_table(five_bar: aspecta.Robot) -> None:
         batch[3]
     again = pickle.loads(pickle.dumps(batch))
     assert np.array_equal(again.q, batch.q) and again.counts.tolist() == [4, 0, 4]
-    frame = batch.to_pandas()
-    assert list(frame.columns[:4]) == ["row", "mode", "x1", "x2"] and len(frame) == 8
+    for frame in (batch.to_pandas(), batch.to_polars()):
+        assert list(frame.columns[:4]) == ["row", "mode", "x1", "x2"] and len(frame) == 8
     assert (
         "8 solutions of 3 rows" in str(batch)
         and str(batch[0]).startswith("4 solutions\n")

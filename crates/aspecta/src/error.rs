@@ -10,6 +10,7 @@ use crate::kinematics::cusps::CuspError;
 use crate::kinematics::follow::{self, StartError};
 use crate::kinematics::path::PathError;
 use crate::kinematics::path::time::TimeError;
+use crate::kinematics::start::NoStart;
 use crate::motion::explore::{ExploreError, NoWay};
 use crate::motion::modes::NoRoute;
 use crate::motion::plan;
@@ -50,6 +51,9 @@ pub enum Error {
     /// A pose or a joint vector does not fit the robot.
     #[error(transparent)]
     Kinematics(#[from] KinematicsError),
+    /// There is no configuration to start from.
+    #[error(transparent)]
+    NoStart(#[from] NoStart),
     /// Nothing bounds a coordinate.
     #[error(transparent)]
     Unbounded(#[from] Unbounded),

@@ -6,9 +6,9 @@ use crate::args::robot::RobotArg;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
 use crate::output::{Target, note};
-use crate::work::start;
+use crate::work::solve;
 use aspecta::Kinematics;
-use aspecta::kinematics::Singularity;
+use aspecta::kinematics::{Singularity, start};
 use aspecta_view::mjcf;
 use clap::{Args, Subcommand};
 use std::io::Write;
@@ -66,6 +66,7 @@ impl Mjcf {
         let start = match &self.pose {
             Some(list) => {
                 let pose = input::list("--pose", list, &Columns::pose(&robot), self.deg)?;
+                solve::within_reach(&robot, &pose)?;
                 start::at(&robot, &pose, mode)?
             }
             None => start::anywhere(&robot, mode)?,

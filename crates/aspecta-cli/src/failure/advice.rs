@@ -2,6 +2,7 @@
 
 use aspecta::aspect::AnalysisError;
 use aspecta::domain::MapError;
+use aspecta::kinematics::start::NoStart;
 use aspecta::motion::PathError;
 use aspecta::motion::explore::ExploreError;
 use aspecta::motion::follow::StartError;
@@ -24,6 +25,14 @@ pub fn on_exploring(error: &ExploreError) -> &'static str {
 pub fn on_start(error: &StartError) -> &'static str {
     match error {
         StartError::NoSolution => "; look at both with `aspecta state`, and at all poses with `aspecta fk`",
+        _ => "",
+    }
+}
+
+/// What to do where no configuration to start from is found.
+pub fn on_no_start(error: &NoStart) -> &'static str {
+    match error {
+        NoStart::Unbounded(_) | NoStart::NotFound { .. } => " (`--pose`)",
         _ => "",
     }
 }

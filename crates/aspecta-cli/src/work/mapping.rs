@@ -5,9 +5,7 @@ use crate::failure::{Failure, advice};
 use crate::input;
 use crate::work::watch::{abandoned_if_cancelled, unkept, within_seconds};
 use aspecta::aspect::{Analysis, AspectId, DetSign, Options, analyze};
-use aspecta::domain::boundary::Boundary;
-use aspecta::domain::characteristic::Characteristic;
-use aspecta::domain::{DomainOptions, Domains, Map, MapError, MappedAspect, Surfaces, domains, slice};
+use aspecta::domain::{DomainOptions, Domains, Map, MapError, MappedAspect, Surfaces, domains};
 use aspecta::kinematics::WorkingMode;
 use aspecta::paving::{Budget, Control, Stop};
 use aspecta::robot::{FileError, Robot};
@@ -136,12 +134,12 @@ impl Making {
         let analysis = Arc::new(unkept(|| analyze(robot, &options, control))?);
         let options = DomainOptions { cells, ..usual };
         let sheet = |id: AspectId| {
-            let mut domains = domains(&analysis, id, &options, control)?;
+            let domains = domains(&analysis, id, &options, control)?;
             let surfaces = if with_surfaces { surfaces(&analysis, &domains, cells, control)? } else { None };
-            if let Some(Surfaces { characteristic, .. }) = &surfaces {
-                domains.measure_disagreements(characteristic, &analysis.window);
-            }
-            Ok::<_, Failure>(MappedAspect { domains, surfaces })
+            Ok::<_, Failure>(match surfaces {
+                Some(surfaces) => MappedAspect::with_surfaces(domains, surfaces, &analysis.window),
+                None => MappedAspect { domains, surfaces: None },
+            })
         };
         let cancelled = || control.cancelled.load(Ordering::Relaxed);
         let mut sheets = Vec::new();
@@ -167,18 +165,6 @@ fn surfaces(
     control: &Control<'_>,
 ) -> Result<Option<Surfaces>, Failure> {
     let (analysis, domains) = (Arc::clone(analysis), domains.clone());
-    abandoned_if_cancelled(control, move || surfaces_of(&analysis, &domains, cells)).transpose()
-}
-
-/// [`surfaces`], with as many cells as [`Boundary::new`] takes.
-fn surfaces_of(analysis: &Analysis, domains: &Domains, cells: usize) -> Result<Surfaces, Failure> {
-    let cells = cells.clamp(4, if domains.cell.len() == 2 { 2000 } else { 300 });
-    let boundary =
-        Boundary::new(analysis, domains.aspect, cells).map_err(|e| Failure::Input(e.to_string()))?;
-    if !analysis.fixed.is_empty() {
-        return Ok(Surfaces::on_slice(&boundary, slice::surfaces(analysis, domains)));
-    }
-    let characteristic =
-        Characteristic::new(analysis, &boundary).map_err(|e| Failure::Input(e.to_string()))?;
-    Ok(Surfaces::new(&boundary, &characteristic))
+    let found = move || Surfaces::of(&analysis, &domains, cells).map_err(|e| Failure::Input(e.to_string()));
+    abandoned_if_cancelled(control, found).transpose()
 }

@@ -3,6 +3,5 @@
 pub mod mapping;
 pub mod planning;
 pub mod solve;
-pub mod start;
 pub mod timing;
 pub mod watch;

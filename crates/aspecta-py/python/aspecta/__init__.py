@@ -12,13 +12,16 @@ as ``"+-+"``. Answers that can stay undecided are ``True``, ``False`` or ``None`
 The theory is Chablat & Wenger, *Mechanism and Machine Theory* 36(6), 2001.
 """
 
-from aspecta import _native
+import json
+from typing import Any
+
+from aspecta import _input, _native
 from aspecta._input import UnitWarning
 from aspecta._native import Error, NoPlan
 from aspecta.analysis import Analysis, Aspect
 from aspecta.certificates import Certificate, verify
 from aspecta.follow import Follower, InverseFollower, JointStep, Step
-from aspecta.maps import Domains, Location, Map
+from aspecta.maps import Domains, Location, Map, Regions, Surface
 from aspecta.results import (
     AssemblyModes,
     Cusps,
@@ -57,16 +60,20 @@ __all__ = [
     "NoPlan",
     "PathCheck",
     "Plan",
+    "Regions",
     "Robot",
     "Solution",
     "SolutionList",
     "Solutions",
     "State",
     "Step",
+    "Surface",
     "Traversability",
     "UnitWarning",
     "Verdict",
     "catalogue",
+    "schema",
+    "set_threads",
     "verify",
 ]
 
@@ -78,3 +85,21 @@ def catalogue() -> dict[str, str]:
     'Five-bar RR-RRR of Chablat & Wenger'
     """
     return dict(_native.catalogue())
+
+
+def schema() -> dict[str, Any]:
+    """Return the JSON Schema of robot files, by which editors complete and check them.
+
+    >>> schema()["title"]
+    'Aspecta robot file'
+    """
+    return json.loads(_native.schema())  # type: ignore[no-any-return]
+
+
+def set_threads(count: int | None) -> None:
+    """Let work that begins from now on, in this process, have so many threads; ``None``: one a core. No result depends on it.
+
+    >>> set_threads(1)
+    >>> set_threads(None)
+    """
+    _native.set_threads(_input.whole("count", count, 1) or 0)

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from aspecta.analysis import Analysis
+    from aspecta.maps import Domains
     from aspecta.results import PathCheck
 
 #: Undecided cells.
@@ -21,6 +22,8 @@ _GREY = "0.8"
 _GRID = 150
 #: Cells near its border whose middles are drawn there.
 _MOST_MIDDLES = 30_000
+#: Regions that a legend names.
+_NAMED = 12
 
 
 def _axes(ax: Axes | None) -> Axes:
@@ -137,6 +140,58 @@ def _squares(lo: Any, hi: Any) -> Any:
         inside[i : k + 1, j : m + 1] = True
     full = np.argwhere(inside[:-1, :-1] & inside[1:, :-1] & inside[1:, 1:] & inside[:-1, 1:])
     return low + step * (full[:, None] + np.array([[0, 0], [1, 0], [1, 1], [0, 1]]))
+
+
+def regions(domains: Domains, ax: Axes | None, at: Mapping[str, float], number: int | None) -> Axes:
+    """Draw the regions of an aspect, and what bounds them if it is known."""
+    from matplotlib.colors import to_rgba_array
+
+    grid = domains.grid
+    names, labels = list(grid.coordinates), grid.labels
+    unknown = set(at) - set(names)
+    if unknown:
+        raise _native.Error(f"at: `{min(unknown)}` does not vary here; {', '.join(names)} do")
+    cut: list[Any] = [slice(None)] * len(names)
+    for name, value in at.items():
+        edges = grid.edges[names.index(name)]
+        if not edges[0] <= value <= edges[-1]:
+            raise _native.Error(f"at: {name} = {value:g} lies outside the aspect, {edges[0]:g} to {edges[-1]:g}")
+        cut[names.index(name)] = min(int(np.searchsorted(edges, value, side="right")) - 1, len(edges) - 2)
+    free = [k for k, name in enumerate(names) if name not in at]
+    if len(free) != 2:
+        raise _native.Error(
+            f"{len(free)} coordinates vary: regions are drawn where two do, such as with at={{{names[-1]!r}: 0}}"
+        )
+    labels = labels[tuple(cut)]
+    shown = {region["number"] for region in domains.regions}
+    if number is not None:
+        if not 1 <= number <= len(domains.uniqueness):
+            raise _native.Error(
+                f"there is no uniqueness domain {number}: there are {len(domains.uniqueness)}, numbered from 1"
+            )
+        shown = set(domains.uniqueness[number - 1]["regions"])
+    ax = _axes(ax)
+    # A colour for what is too thin to tell, for outside, and for each region.
+    colours = [_GREY, "none", *(_colour(r["number"]) if r["number"] in shown else _GREY for r in domains.regions)]
+    image = to_rgba_array(colours)[labels + 1]
+    image[..., 3] *= 0.7
+    x, y = (grid.edges[k] for k in free)
+    ax.imshow(image.swapaxes(0, 1), origin="lower", extent=(x[0], x[-1], y[0], y[-1]), interpolation="nearest")
+    for region in sorted(shown)[:_NAMED]:
+        solutions = domains.regions[region - 1]["solutions"]
+        ax.fill([], [], color=_colour(region), alpha=0.7, label=f"region {region}: n = {solutions}")
+    if len(names) == 2 and domains._mapped().surfaces(domains.aspect) is not None:
+        from matplotlib.collections import LineCollection
+
+        for surface, style in zip(domains.surfaces, ("-", "--"), strict=True):
+            lines = surface.vertices[surface.simplices]
+            ax.add_collection(LineCollection(list(lines), color="black", linestyle=style, linewidth=0.8))
+    ax.set_xlabel(names[free[0]])
+    ax.set_ylabel(names[free[1]])
+    ax.set_aspect("equal" if {"x", "y", "z"}.issuperset(names[k] for k in free) else "auto")
+    if shown:
+        ax.legend(fontsize="small", loc="upper left", bbox_to_anchor=(1, 1))
+    return ax
 
 
 def profile(check: PathCheck, ax: Axes | None) -> Axes:

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from aspecta import _input, _native, certificates
 from aspecta._progress import Progress, kept, reporter
 from aspecta._result import Result
+from aspecta._table import Frame, to_html
 from aspecta.maps import Map
 from aspecta.results import AssemblyModes, ModeGraph, Plan, Traversability
 
@@ -52,7 +53,13 @@ class Aspect:
     q_bounds: tuple[Range, ...]
 
 
-class Analysis(Result):
+def _bounds(count: Mapping[str, Any]) -> str:
+    """Bounds on a number in words."""
+    low, high = count["low"], count["high"]
+    return f"exactly {low}" if low == high else f"at least {low}" if high is None else f"{low} to {high}"
+
+
+class Analysis(Result, Frame):
     """The working modes and generalized aspects of a robot, or of a slice of it. Made by :meth:`Robot.analyze`.
 
     Printed it is Tables 1 and 2 of the paper; bounds on the number of aspects are certified.
@@ -134,6 +141,24 @@ class Analysis(Result):
         """Return the tables of the terminal, angles in radians or in degrees."""
         return self._boxes().text(degrees) if degrees else str(self)
 
+    def _repr_html_(self) -> str:
+        picture = None if self._paving is None else self._paving.picture()
+        measure = f"{self.measure['name']} [{self.measure['unit']}]"
+        rows = [[c["mode"], c["det_a"], _bounds(c), c["measure"], c["undecided"]] for c in self.classes]
+        heads = ["mode", "det A", "aspects", f"certified {measure}", "undecided"]
+        count = f"number of generalized aspects, certified: {_bounds(self._data['aspects'])}"
+        return f"{to_html(count, heads, rows)}{picture or ''}"
+
+    def _columns(self) -> dict[str, Any]:
+        """An aspect a line."""
+        found = self.aspects
+        columns: dict[str, Any] = {
+            name: [getattr(aspect, name) for aspect in found] for name in ("id", "mode", "det_a", "measure", "pieces")
+        }
+        for letter, point in (("x", "pose"), ("q", "q")):
+            columns |= {f"{letter}{k + 1}": [getattr(a, point)[k] for a in found] for k in range(self.robot.dof)}
+        return columns
+
     def at(self, pose: ArrayLike, *, mode: str | None = None) -> list[Aspect]:
         """Return the aspects in which a pose (dof,) lies, one for each working mode in which it does (certified).
 
@@ -198,12 +223,16 @@ class Analysis(Result):
         det_a: Literal["+", "-"] | None = None,
         cells: int | None = None,
         samples: int | None = None,
+        surfaces: bool | None = None,
+        seconds: float | None = None,
         progress: Progress = None,
     ) -> Map:
         """Cut aspects (default: all) into basic regions and uniqueness domains (Def. 10, Theorem 3).
 
         ``cells`` is the number of cells across the workspace, ``samples`` of random poses at which the result is compared
-        with the direct model. Numerical, true to a cell. Ctrl-C raises
+        with the direct model. ``surfaces`` says whether the surfaces that bound aspects and regions are found too, which
+        :meth:`Map.draw` and :meth:`Domains.surfaces` need; left out, they are where two coordinates vary, and it takes no time.
+        After ``seconds`` the map is of the aspects that are done. Numerical, true to a cell. Ctrl-C raises
         ``KeyboardInterrupt``, whose ``partial()`` returns a map of what was done.
         """
         wanted = [aspects] if isinstance(aspects, int) else aspects
@@ -219,11 +248,12 @@ class Analysis(Result):
         boxes = self._boxes()
         _input.whole("cells", cells, 2, 2000)
         _input.whole("samples", samples, 0)
-        return kept(lambda: boxes.domains(chosen, cells, samples, reporter(progress)), Map)
+        _input.positive("seconds", seconds)
+        return kept(lambda: boxes.domains(chosen, cells, samples, surfaces, seconds, reporter(progress)), Map)
 
-    def modes(self, *, progress: Progress = None) -> ModeGraph:
-        """Return which aspects are joined by legs that change their postures."""
-        data, svg = self._boxes().modes(reporter(progress))
+    def modes(self, *, seconds: float | None = None, progress: Progress = None) -> ModeGraph:
+        """Return which aspects are joined by legs that change their postures; what was found after ``seconds``."""
+        data, svg = self._boxes().modes(_input.positive("seconds", seconds), reporter(progress))
         return ModeGraph(data, "", svg)
 
     def assembly(self, q: ArrayLike) -> AssemblyModes:
@@ -239,6 +269,8 @@ class Analysis(Result):
         radius: float | None = None,
         poses: ArrayLike | None = None,
         paths: Sequence[ArrayLike] | None = None,
+        mode: str | None = None,
+        det_a: Literal["+", "-"] | None = None,
         through_modes: bool = False,
         progress: Progress = None,
     ) -> Traversability:
@@ -248,6 +280,8 @@ class Analysis(Result):
         ``disc`` or ``ball``: likewise, x and y (and z) being those of the centre, within ``radius`` of which the poses lie; with
         a range of z a disc is a cylinder.
         ``poses``: separate poses (n, dof), to be visited in any order. ``paths``: polylines, each (n, dof).
+
+        ``mode`` and ``det_a`` choose the classes that are asked about.
         """
         sets = {"box": box, "disc": disc, "ball": ball, "poses": poses, "paths": paths}
         given = [name for name, value in sets.items() if value is not None]
@@ -273,7 +307,10 @@ class Analysis(Result):
         found = self._boxes().traverse(
             name, ranges, round_axes, radius or 0.0, lists, through_modes, reporter(progress)
         )
-        return Traversability(found)
+        answer = Traversability(found)
+        known = None if mode is None else self.robot._known(mode)
+        answer.classes[:] = [c for c in answer.classes if known in (None, c["mode"]) and det_a in (None, c["det_a"])]
+        return answer
 
     def plan(
         self,

@@ -7,7 +7,7 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
 
-from aspecta import _native
+from aspecta import _input, _native
 from aspecta._progress import Progress, kept, reporter
 from aspecta.results import Verdict
 
@@ -36,15 +36,18 @@ class Certificate:
         """Return the certificate as plain data."""
         return json.loads(self.text)
 
-    def verify(self, *, progress: Progress = None) -> Verdict:
+    def verify(self, *, seconds: float | None = None, progress: Progress = None) -> Verdict:
         """Check the certificate by code that shares next to nothing with what wrote it.
 
-        The verdict is true if all that is claimed is verified.
+        The verdict is true if all that is claimed is verified; what is not checked after ``seconds`` is not.
 
         Raises:
             Error: the text is no certificate.
         """
-        return kept(lambda: _native.verify(self.text.encode(), reporter(progress)), lambda found: Verdict(*found))
+        limit = _input.positive("seconds", seconds)
+        return kept(
+            lambda: _native.verify(self.text.encode(), limit, reporter(progress)), lambda found: Verdict(*found)
+        )
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Certificate) and self.text == other.text
@@ -56,8 +59,10 @@ class Certificate:
         return f"<certificate of {len(self.text):,} characters>"
 
 
-def verify(certificate: Certificate | str | PathLike[str], *, progress: Progress = None) -> Verdict:
+def verify(
+    certificate: Certificate | str | PathLike[str], *, seconds: float | None = None, progress: Progress = None
+) -> Verdict:
     """Check a certificate, or the one in a file: see :meth:`Certificate.verify`."""
     if not isinstance(certificate, Certificate):
         certificate = Certificate.load(certificate)
-    return certificate.verify(progress=progress)
+    return certificate.verify(seconds=seconds, progress=progress)

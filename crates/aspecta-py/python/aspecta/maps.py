@@ -2,14 +2,27 @@
 
 from __future__ import annotations
 
+import html
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from os import PathLike, fspath
-from typing import Any, NamedTuple, overload
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, overload
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
-from aspecta import _native
+from aspecta import _input, _native
 from aspecta._result import Result
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Array = NDArray[np.float64]
+
+#: Aspects whose regions a notebook shows with a map.
+_PICTURES = 2
+_NO_SURFACES = "the surfaces were not computed: ask for them with analysis.domains(…, surfaces=True)"
 
 
 class Location(NamedTuple):
@@ -27,9 +40,57 @@ class Location(NamedTuple):
     nowhere: str | None
 
 
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """What bounds an aspect, or cuts it into regions: curves of segments (k = 2), or surfaces of triangles (k = 3)."""
+
+    #: ``"boundary"`` or ``"characteristic"`` (Def. 9).
+    name: str
+    #: (n, k): poses, the k coordinates that vary. Where an angle closes up on itself, triangles across its ends have copies of
+    #: vertices a full turn further.
+    vertices: Array
+    #: (m, k): the vertices of each segment or triangle.
+    simplices: NDArray[np.uint32]
+    #: The names of the faces, such as ``"det A = 0"``.
+    faces: list[str]
+    #: (m,): which of ``faces`` each simplex is, or comes from.
+    face: NDArray[np.uint8]
+    #: (n, dof): joint vectors.
+    q: Array
+    #: (n, k): of a characteristic surface, the pose on the boundary with the same joint vector; ``None`` of a boundary.
+    source: Array | None
+
+    def to_trimesh(self) -> Any:
+        """Return a ``trimesh.Trimesh`` (trimesh must be installed); joint vectors are its vertex attribute ``q``.
+
+        Raises:
+            Error: it is a curve.
+        """
+        if self.simplices.shape[1] != 3:
+            raise _native.Error("a curve is no mesh of triangles: two coordinates vary")
+        import trimesh
+
+        return trimesh.Trimesh(self.vertices, self.simplices, vertex_attributes={"q": self.q}, process=False)
+
+
+@dataclass(frozen=True, eq=False)
+class Regions:
+    """The basic regions of an aspect on a grid."""
+
+    #: The names of the k coordinates that vary.
+    coordinates: list[str]
+    #: (c_j + 1,) for each of them: the ends of the cells.
+    edges: list[Array]
+    #: (c_1, …, c_k): the region of each cell, from 1; 0 outside the aspect, -1 where it is too thin to tell.
+    labels: NDArray[np.int64]
+
+
 class Domains(Result):
     """The basic regions and uniqueness domains of one aspect. Numerical, true to a cell of the grid."""
 
+    __slots__ = ("_map",)
+
+    _map: _native.Map | None
     #: The aspect.
     aspect: int
     #: The basic regions, the largest first.
@@ -38,6 +99,67 @@ class Domains(Result):
     uniqueness: list[dict[str, Any]]
     #: Whether nothing about it is unresolved.
     complete: bool
+
+    def __init__(self, data: str | dict[str, Any], text: str = "", native: _native.Map | None = None) -> None:
+        super().__init__(data, text)
+        self._map = native
+
+    def _mapped(self) -> _native.Map:
+        if self._map is None:
+            raise _native.Error("pickled domains hold their answers, not the grid behind them: pickle their map")
+        return self._map
+
+    def _repr_html_(self) -> str:
+        picture = None if self._map is None else self._map.picture(self.aspect)
+        return f"{super()._repr_html_()}{picture or ''}"
+
+    @property
+    def grid(self) -> Regions:
+        """The regions, cell by cell."""
+        native = self._mapped()
+        found = native.grid(self.aspect)
+        assert found is not None
+        axes, low, step, count, labels = found
+        edges = [lo + width * np.arange(n + 1, dtype=float) for lo, width, n in zip(low, step, count, strict=True)]
+        return Regions([native.coordinates[k] for k in axes], edges, labels.reshape(count, order="F"))
+
+    @property
+    def surfaces(self) -> tuple[Surface, Surface]:
+        """The boundary of the aspect, and its characteristic surfaces (Def. 9).
+
+        Raises:
+            Error: they were not asked for: ``analysis.domains(…, surfaces=True)``.
+        """
+        native = self._mapped()
+        found = native.surfaces(self.aspect)
+        if found is None:
+            raise _native.Error(_NO_SURFACES)
+        k = len(self.cell)
+        boundary, characteristic = (
+            Surface(
+                name,
+                vertices.reshape(-1, k),
+                corners.reshape(-1, k),
+                faces,
+                face,
+                q.reshape(-1, native.dof),
+                source.reshape(-1, k) if len(source) else None,
+            )
+            for name, vertices, corners, face, faces, q, source in found
+        )
+        return boundary, characteristic
+
+    #: The width of a cell, per coordinate that varies.
+    cell: list[float]
+
+    def plot(self, ax: Axes | None = None, *, at: Mapping[str, float] | None = None, domain: int | None = None) -> Axes:
+        """Draw the regions in the workspace, a colour each; ``at`` names the coordinate to cut at where three vary.
+
+        ``domain`` draws the regions of that uniqueness domain, from 1, and leaves the others pale.
+        """
+        from aspecta._plot import regions
+
+        return regions(self, ax, at or {}, domain)
 
 
 class Map:
@@ -80,7 +202,35 @@ class Map:
         found = self._native.domains(aspect)
         if found is None:
             raise KeyError(f"aspect {aspect} is not in this map, which has {self.aspects}")
-        return Domains(*found)
+        return Domains(*found, self._native)
+
+    def draw(
+        self,
+        directory: str | PathLike[str],
+        aspects: Sequence[int] | int | None = None,
+        *,
+        meshes: Sequence[Literal["ply", "glb", "vtp"]] = ("ply", "glb"),
+        hold: int = 3,
+    ) -> list[Path]:
+        """Write pictures of aspects (default: all that are cut into regions) into a directory: regions, the largest uniqueness
+        domain, basic components and sheets over joint space; of three coordinates meshes too. Return the paths.
+
+        ``hold`` is the joint, from 1, that is held in pictures of a joint space of three.
+
+        Raises:
+            Error: surfaces were not asked for: ``analysis.domains(…, surfaces=True)``.
+        """
+        wanted = self.aspects if aspects is None else [aspects] if isinstance(aspects, int) else list(aspects)
+        for aspect in wanted:
+            self.domains(aspect)
+        _input.whole("hold", hold, 1, 3)
+        written: list[Path] = []
+        for aspect in wanted:
+            paths = self._native.draw(aspect, fspath(directory), list(meshes), hold - 1)
+            if paths is None:
+                raise _native.Error(_NO_SURFACES)
+            written += map(Path, paths)
+        return written
 
     @overload
     def locate(self, pose: list[float] | tuple[float, ...], mode: str) -> Location: ...
@@ -102,6 +252,10 @@ class Map:
         return f"a map of {self.robot}: aspects {', '.join(map(str, self.aspects)) or 'none'} cut into regions"
 
     __repr__ = __str__
+
+    def _repr_html_(self) -> str:
+        pictures = (self._native.picture(aspect) or "" for aspect in self.aspects[:_PICTURES])
+        return f"<p>{html.escape(str(self))}</p>{''.join(pictures)}"
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _map_of, (self._native.to_bytes(),)

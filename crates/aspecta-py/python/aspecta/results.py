@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from aspecta import _input, _native
 from aspecta._result import Result
+from aspecta._table import Frame
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -108,7 +109,7 @@ class PathCheck(Result):
         return profile(self, ax)
 
 
-class Motion(Result):
+class Motion(Result, Frame):
     """A motion in time: the fastest through a path under limits of joint speed and acceleration. Numerical."""
 
     #: Seconds from start to end.
@@ -151,14 +152,12 @@ class Motion(Result):
 
     __repr__ = __str__
 
-    def to_pandas(self) -> Any:
-        """Return a ``pandas.DataFrame`` with a row a sample (pandas must be installed)."""
-        import pandas
-
+    def _columns(self) -> dict[str, Any]:
+        """A row a sample."""
         dof = self.pose.shape[1]
         parts = (("x", self.pose), ("q", self.q), ("v", self.velocity), ("a", self.acceleration))
         columns = {f"{name}{k + 1}": values[:, k] for name, values in parts for k in range(dof)}
-        return pandas.DataFrame({"time": self.time, **columns})
+        return {"time": self.time, **columns}
 
 
 def timed(
@@ -242,6 +241,22 @@ class AssemblyModes(Result):
 class JoinedSolutions(Result):
     """The direct solutions of a joint vector of a free body, and which of them proved motions join."""
 
+    #: Whether the solutions are proved to be all.
+    complete: bool
+    #: Each with ``number`` and the solution's parts.
+    solutions: list[dict[str, Any]]
+    #: Class by class: ``mode``, ``det_a``, and ``joined``, groups of solutions that lie in one aspect (certified).
+    classes: list[dict[str, Any]]
+
+    def __str__(self) -> str:
+        lines = [f"{len(self.solutions)} direct solutions{', all of them' if self.complete else ', perhaps not all'}"]
+        for c in self.classes:
+            groups = "; ".join(", ".join(map(str, group)) for group in c["joined"])
+            lines.append(f"  {c['mode']}  det A {c['det_a']}  joined by proved motions: {groups or 'none'}")
+        return "\n".join(lines)
+
+    __repr__ = __str__
+
 
 class ModeGraph(Result):
     """Which aspects are joined by legs that change their postures, each crossing proved."""
@@ -298,7 +313,22 @@ class Traversability(Result):
 
 
 class Cusps(Result):
-    """Where three direct solutions meet: of a slice, proved; or the curves they form, followed numerically."""
+    """Where three direct solutions meet: of a slice, proved; or the curves they form, followed numerically.
+
+    Of a slice ``cusps``, ``complete`` and ``undecided``; of a whole robot ``curves``, ``slices`` and ``stopped``.
+    """
+
+    def __str__(self) -> str:
+        if "curves" in self._data:
+            ended = ", stopped before the end" if self.stopped else ""
+            return f"{len(self.curves)} curves of cusps, of {len(self.slices)} slices{ended}"
+        lines = [f"{len(self.cusps)} cusps{', proved to be all' if self.complete else ', perhaps not all'}"]
+        for c in self.cusps:
+            pose, q = (", ".join(f"{x:.6g}" for x in c[name]) for name in ("pose", "q"))
+            lines.append(f"  {c['mode']}  pose ({pose})  q ({q}){'' if c['within_limits'] else '  beyond limits'}")
+        return "\n".join(lines)
+
+    __repr__ = __str__
 
 
 class Exploration(Result):

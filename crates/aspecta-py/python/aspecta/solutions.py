@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import html
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
+
+from aspecta._table import Frame, to_html
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -62,15 +63,24 @@ class SolutionList(Sequence[Solution]):
     def __getitem__(self, index: int | slice) -> Solution | Sequence[Solution]:
         return self._solutions[index]
 
-    def __str__(self) -> str:
+    @property
+    def _heading(self) -> str:
         count = len(self)
-        heading = f"{count} solution{'' if count == 1 else 's'}{_PROVED[self.complete]}"
-        return "\n".join([heading, *map(_line, self)])
+        return f"{count} solution{'' if count == 1 else 's'}{_PROVED[self.complete]}"
+
+    def __str__(self) -> str:
+        return "\n".join([self._heading, *map(_line, self)])
 
     __repr__ = __str__
 
     def _repr_html_(self) -> str:
-        return f"<pre>{html.escape(str(self))}</pre>"
+        dof = len(self[0].q) if self else 0
+        heads = ["mode", *(f"x{k + 1}" for k in range(dof)), *(f"q{k + 1}" for k in range(dof)), "det A", "limits"]
+        rows = [
+            [s.mode, *map(float, s.pose), *map(float, s.q), s.det_a, "within" if s.within_limits else "beyond"]
+            for s in self
+        ]
+        return to_html(self._heading, heads, rows)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), (self._solutions, self.complete)
@@ -88,7 +98,7 @@ def _line(solution: Solution) -> str:
     )
 
 
-class Solutions(Sequence[SolutionList]):
+class Solutions(Sequence[SolutionList], Frame):
     """The solutions of many rows as arrays, one solution a line, in the order of the rows asked about.
 
     ``batch[i]`` are the solutions of row i; ``batch.q``, ``batch.pose`` … hold those of all rows, ``batch.row`` tells whose.
@@ -193,16 +203,13 @@ class Solutions(Sequence[SolutionList]):
         wanted = np.array([1 if sign == "+" else -1 for sign in mode], dtype=np.int8)
         return self.only((self.signs == wanted).all(axis=1))
 
-    def to_pandas(self) -> Any:
-        """Return a ``pandas.DataFrame`` with a solution a line (pandas must be installed)."""
-        import pandas
-
+    def _columns(self) -> dict[str, Any]:
+        """A solution a line."""
         dof = self.pose.shape[1]
         columns: dict[str, Any] = {"row": self.row, "mode": self.modes}
         columns |= {f"x{k + 1}": self.pose[:, k] for k in range(dof)}
         columns |= {f"q{k + 1}": self.q[:, k] for k in range(dof)}
-        columns |= {"det_a": self.det_a, "certified": self.certified, "within_limits": self.within_limits}
-        return pandas.DataFrame(columns)
+        return columns | {"det_a": self.det_a, "certified": self.certified, "within_limits": self.within_limits}
 
     def __str__(self) -> str:
         proved = "" if self.complete is None else f", proved to be all in {int(self.complete.sum())}"

@@ -45,8 +45,7 @@ struct FlatFigures {
 /// # Errors
 /// Those of the file system.
 pub fn write(analysis: &Analysis, dir: &Path) -> io::Result<Vec<PathBuf>> {
-    let cells: Vec<Vec<Cell>> =
-        (0..analysis.classes.len()).map(|k| analysis.cells(ClassId::new(k))).collect();
+    let cells = cells(analysis);
     let figures = draw(analysis, &cells);
     let volume = if analysis.window.axes().len() == 3 { Some(volume::json(analysis, &cells)?) } else { None };
     let folder = dir.join("figures");
@@ -56,6 +55,26 @@ pub fn write(analysis: &Analysis, dir: &Path) -> io::Result<Vec<PathBuf>> {
         written.push(put(&folder, &format!("{name}.svg"), svg)?);
     }
     Ok(written)
+}
+
+/// The picture of all aspects of a robot, or of a slice, of which one or two coordinates vary: figure 9, or strips.
+/// `None` of three.
+pub fn overview(analysis: &Analysis) -> Option<String> {
+    let cells = cells(analysis);
+    match analysis.window.axes().len() {
+        1 => Some(strips::strips(analysis, &cells)),
+        2 => Some(maps::figure_9(&survey(analysis, &cells))),
+        _ => None,
+    }
+}
+
+fn cells(analysis: &Analysis) -> Vec<Vec<Cell>> {
+    (0..analysis.classes.len()).map(|k| analysis.cells(ClassId::new(k))).collect()
+}
+
+fn survey<'a>(analysis: &'a Analysis, cells: &[Vec<Cell>]) -> Survey<'a> {
+    let side = analysis.window.axes().into_iter().map(|k| side(analysis, k)).max().unwrap_or(1);
+    Survey::new(analysis, cells, side)
 }
 
 impl Figures {
@@ -86,8 +105,7 @@ fn sample(analysis: &Analysis) -> Option<&Sample> {
 }
 
 fn flat(analysis: &Analysis, cells: &[Vec<Cell>]) -> FlatFigures {
-    let side = analysis.window.axes().into_iter().map(|k| side(analysis, k)).max().unwrap_or(1);
-    let survey = Survey::new(analysis, cells, side);
+    let survey = survey(analysis, cells);
     let overview = if analysis.fixed.is_empty() { "figure9" } else { "overview" };
     let class =
         |c: &AspectClass| (maps::class_name(&survey, c.mode, c.det_a), maps::class(&survey, c.mode, c.det_a));

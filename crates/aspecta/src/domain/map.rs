@@ -14,9 +14,9 @@ use super::face::Face;
 use super::field::Field;
 use super::grid::Pose;
 use super::labels::OUTSIDE;
-use super::mesh::Surfaces;
 use super::result::Domains;
 use super::sheet::{Belongs, Sheet};
+use super::surfaces::Surfaces;
 use crate::aspect::{Analysis, AspectId, Count, DetSign, Measure};
 use aspecta_kinematics::constraints::{Constraint, Demand, Kind};
 use aspecta_kinematics::path::curve::Along;
@@ -64,6 +64,15 @@ pub struct MappedAspect {
     pub domains: Domains,
     /// The surfaces that pictures need besides, if they were computed.
     pub surfaces: Option<Surfaces>,
+}
+
+impl MappedAspect {
+    /// An aspect cut into regions, with the surfaces that bound them: what disagrees with the direct model is measured by its
+    /// distance from these.
+    pub fn with_surfaces(mut domains: Domains, surfaces: Surfaces, window: &Window) -> Self {
+        domains.measure_disagreements(&surfaces.characteristic, window);
+        Self { domains, surfaces: Some(surfaces) }
+    }
 }
 
 /// The location of a pose in a working mode.

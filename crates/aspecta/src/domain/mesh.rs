@@ -1,7 +1,7 @@
 //! Curves and surfaces over poses, without how they came about.
 
 use super::boundary::{Boundary, Simplex};
-use super::characteristic::{Characteristic, GivenUp};
+use super::characteristic::Characteristic;
 use super::face::Face;
 use serde::{Deserialize, Serialize};
 
@@ -31,35 +31,6 @@ impl From<&Characteristic> for Mesh {
         let sources =
             surface.vertices.iter().map(|v| surface.sources[v.source as usize].pose.clone()).collect();
         Self { vertices, sources, simplices: surface.simplices.clone() }
-    }
-}
-
-/// The meshes of an aspect.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Surfaces {
-    /// Its boundary.
-    pub boundary: Mesh,
-    /// Its characteristic surfaces.
-    pub characteristic: Mesh,
-    /// The parts of these that were given up.
-    pub given_up: GivenUp,
-}
-
-impl Surfaces {
-    /// The meshes of a boundary and of what it maps to.
-    pub fn new(boundary: &Boundary, characteristic: &Characteristic) -> Self {
-        let given_up = characteristic.given_up;
-        Self { boundary: boundary.into(), characteristic: characteristic.into(), given_up }
-    }
-
-    /// The meshes on a slice: a boundary, and what [`slice::surfaces`](super::slice::surfaces) found.
-    pub fn on_slice(boundary: &Boundary, characteristic: Mesh) -> Self {
-        let mut boundary_mesh = Mesh::from(boundary);
-        for pose in &mut boundary_mesh.vertices {
-            *pose = boundary.axes.iter().map(|&k| pose[k]).collect();
-        }
-        Self { boundary: boundary_mesh, characteristic, given_up: GivenUp::default() }
     }
 }
 

@@ -25,6 +25,7 @@ mod partition;
 mod result;
 mod sheet;
 pub mod slice;
+mod surfaces;
 mod thin;
 mod uniqueness;
 
@@ -32,9 +33,10 @@ pub use analysis::domains;
 pub use id::RegionId;
 pub use labels::{Labels, OUTSIDE};
 pub use map::{Location, MAP_VERSION, Map, MapError, MappedAspect, MappedClass, Nowhere};
-pub use mesh::{Mesh, Surfaces};
+pub use mesh::Mesh;
 pub use result::{
     Agreement, BasicRegion, Coincidence, Disagreement, DomainError, DomainOptions, Domains, UniquenessDomain,
     Unresolved, Violation,
 };
 pub use sheet::Sheet;
+pub use surfaces::Surfaces;

@@ -1,0 +1,41 @@
+"""Tables: as HTML for notebooks, as frames for pipelines."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+
+def to_html(caption: str, heads: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
+    """Return a table; numbers with six digits."""
+
+    def cell(value: Any) -> str:
+        text = f"{value:.6g}" if isinstance(value, float) else str(value)
+        return f"<td>{html.escape(text)}</td>"
+
+    head = "".join(f"<th>{html.escape(name)}</th>" for name in heads)
+    body = "".join(f"<tr>{''.join(map(cell, row))}</tr>" for row in rows)
+    title = f'<caption style="text-align:left">{html.escape(caption)}</caption>'
+    return f"<table>{title}<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+
+
+class Frame:
+    """What can be had as a data frame: ``_columns`` names its columns."""
+
+    __slots__ = ()
+
+    def _columns(self) -> Mapping[str, Any]:
+        raise NotImplementedError
+
+    def to_pandas(self) -> Any:
+        """Return a ``pandas.DataFrame`` (pandas must be installed)."""
+        import pandas
+
+        return pandas.DataFrame(dict(self._columns()))
+
+    def to_polars(self) -> Any:
+        """Return a ``polars.DataFrame`` (polars must be installed)."""
+        import polars
+
+        return polars.DataFrame(dict(self._columns()))
