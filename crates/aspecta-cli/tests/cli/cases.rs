@@ -4,6 +4,7 @@ mod asked;
 mod beyond;
 mod budgets;
 mod degrees;
+mod hexapods;
 mod postures;
 
 use crate::{aspecta, json, numbers, output, stdout};

@@ -2,7 +2,7 @@
 
 use super::certify::certify;
 use super::locked::{Locked, linearised, polish, rounds_to_zero, units};
-use super::projective::{Point, Problem, rotation};
+use super::projective::{Ends, Point, Problem, Proved, rotation};
 use super::{Roots, SelfMotion, cone, free_body, turning_body};
 use crate::SINGULAR;
 use crate::placement::{Placement, roll_pitch_yaw};
@@ -22,7 +22,7 @@ pub(super) fn turning(legs: &[Locked], prove: bool) -> Result<Roots<3>, SelfMoti
         let poses = ends.iter().map(|end| pose(&end.point)).collect();
         return Ok(Roots { poses, proved: if prove { ends.len() } else { 0 }, at_most: Some(ends.len()) });
     }
-    found(Platform::TurningBody, legs, &problem, turning_body::MOST, prove, pose)
+    found(Platform::TurningBody, legs, &problem, (turning_body::MOST, |_: &_, _: &_| 0), prove, pose)
 }
 
 /// The poses of a free body.
@@ -34,10 +34,12 @@ pub(super) fn free(legs: &[Locked], prove: bool) -> Result<Roots<6>, SelfMotion>
         let ([x, y, z], [roll, pitch, yaw]) = (units.position(e, g, &r), roll_pitch_yaw(&r));
         [x, y, z, roll, pitch, yaw]
     };
-    found(Platform::FreeBody, legs, &problem, free_body::most(legs), prove, pose)
+    let elsewhere = |ends: &_, proofs: &_| free_body::elsewhere(problem.forms(), ends, proofs);
+    found(Platform::FreeBody, legs, &problem, (free_body::MOST, elsewhere), prove, pose)
 }
 
-/// The real ones among the common points of `problem`, which has at most `most` isolated ones.
+/// The real ones among the common points of `problem`: at most `most`, and of those some may be proved to be `elsewhere`, where no
+/// poses are, once these ends and proofs are known.
 ///
 /// Where it is not proved that these are all, the other paths may have ended at poses that meet: those that
 /// fulfil the leg equations to rounding are added.
@@ -45,7 +47,7 @@ fn found<const V: usize, const F: usize, const N: usize>(
     platform: Platform,
     legs: &[Locked],
     problem: &Problem<'_, V, F>,
-    most: usize,
+    (most, elsewhere): (usize, impl FnOnce(&Ends<V>, &[Option<Proved<V>>]) -> usize),
     prove: bool,
     pose: impl Fn(&Point<V>) -> [f64; N],
 ) -> Result<Roots<N>, SelfMotion> {
@@ -59,7 +61,8 @@ fn found<const V: usize, const F: usize, const N: usize>(
     }
     let sure = roots.poses.len();
     roots.proved = if prove { sure } else { 0 };
-    let all = (0..ends.len()).filter(|&k| proved(k)).count() == most;
+    let counted = (0..ends.len()).filter(|&k| proved(k)).count();
+    let all = prove && (counted == most || counted + elsewhere(&ends, &proofs) == most);
     roots.at_most = all.then_some(sure);
     if all {
         return Ok(roots);

@@ -229,7 +229,7 @@ fn the_hexa_hangs_level_below_its_motors() {
 }
 
 /// Newton's method in the pose coordinates, by finite differences, from `pose` towards strut lengths `wanted`.
-fn newton(robot: &Robot, mut pose: Vector6<f64>, wanted: &Vector6<f64>) -> Option<Vector6<f64>> {
+pub fn newton(robot: &Robot, mut pose: Vector6<f64>, wanted: &Vector6<f64>) -> Option<Vector6<f64>> {
     let lengths = |x: &Vector6<f64>| {
         let solutions = robot.inverse(x.as_slice()).ok()?;
         Some(Vector6::from_column_slice(&solutions.first()?.q))

@@ -28,5 +28,6 @@ mod singularity;
 mod slice_domains;
 mod slices;
 mod spatial;
+mod special_hexapods;
 mod sweep;
 mod time;

@@ -14,12 +14,12 @@ fn cases() -> u64 {
     std::env::var("ASPECTA_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(300)
 }
 
-fn vector(random: &mut Random) -> [f64; 3] {
+pub fn vector(random: &mut Random) -> [f64; 3] {
     std::array::from_fn(|_| random.within(-1.0, 1.0))
 }
 
 /// Six struts between points of the base and of the platform.
-fn hexapod(base: &[[f64; 3]; 6], platform: &[[f64; 3]; 6]) -> Robot {
+pub fn hexapod(base: &[[f64; 3]; 6], platform: &[[f64; 3]; 6]) -> Robot {
     let leg = |k: usize| {
         let mut leg = Leg::strut([0.0, 0.0], [0.0, 0.0]);
         leg.anchor = base[k].map(Interval::point);
@@ -33,7 +33,7 @@ fn random_points(random: &mut Random) -> [[f64; 3]; 6] {
     std::array::from_fn(|_| vector(random))
 }
 
-fn random_pose(random: &mut Random) -> Vec<f64> {
+pub fn random_pose(random: &mut Random) -> Vec<f64> {
     let mut pose: Vec<f64> = vector(random).into();
     pose.extend([random.within(-PI, PI), random.within(-1.5, 1.5), random.within(-PI, PI)]);
     pose
@@ -51,12 +51,12 @@ fn apart(a: &[f64], b: &[f64]) -> f64 {
     moved.max((rotation(&a[lengths..]) - rotation(&b[lengths..])).amax())
 }
 
-fn nearest(found: &DirectSolutions, pose: &[f64]) -> f64 {
+pub fn nearest(found: &DirectSolutions, pose: &[f64]) -> f64 {
     found.solutions.iter().map(|s| apart(&s.pose, pose)).fold(f64::INFINITY, f64::min)
 }
 
 /// All different, certified, true to the leg lengths as the inverse model has them.
-fn assert_sound(robot: &Robot, q: &[f64], found: &DirectSolutions) {
+pub fn assert_sound(robot: &Robot, q: &[f64], found: &DirectSolutions) {
     for (k, s) in found.solutions.iter().enumerate() {
         assert!(s.certified && s.residual < 1e-10, "{s:?}");
         assert!(found.solutions[..k].iter().all(|other| apart(&other.pose, &s.pose) > 1e-9));
@@ -181,18 +181,14 @@ fn legs_in_pairs() {
     }
 }
 
-/// Fewer solutions than generic ones have, the others being at infinity: none of those given is lost, and completeness is not claimed.
+/// Where base and platform are equal, the other solutions are curves at infinity: none of those given is lost, and completeness is
+/// not claimed.
 #[test]
-fn two_pairs_and_equal_platforms() {
+fn equal_platforms() {
     let mut random = Random(5);
-    for case in 0..40 {
-        let (base, mut platform) = (random_points(&mut random), random_points(&mut random));
-        if case % 2 == 0 {
-            (platform[1], platform[3]) = (platform[0], platform[2]);
-        } else {
-            platform = base;
-        }
-        let robot = hexapod(&base, &platform);
+    for case in 0..20 {
+        let base = random_points(&mut random);
+        let robot = hexapod(&base, &base);
         let pose = random_pose(&mut random);
         let q = robot.inverse(&pose).unwrap()[0].q.clone();
         let found = robot.direct_certified(&q).unwrap();

@@ -76,6 +76,32 @@ impl<const V: usize> Factors<V> {
         x
     }
 
+    /// x with Aᵀ x = b: Uᵀ and Lᵀ in turn, then the exchanges backwards.
+    pub fn solve_transposed(&self, b: &Point<V>) -> Point<V> {
+        let mut x = *b;
+        for i in 0..V {
+            let mut sum = x.get(i);
+            for k in 0..i {
+                sum -= self.matrix[k].get(i) * x.get(k);
+            }
+            let value = sum * self.inverses[i];
+            (x.re[i], x.im[i]) = (value.re, value.im);
+        }
+        for i in (0..V).rev() {
+            let mut sum = x.get(i);
+            for k in i + 1..V {
+                sum -= self.matrix[k].get(i) * x.get(k);
+            }
+            (x.re[i], x.im[i]) = (sum.re, sum.im);
+        }
+        for k in (0..V).rev() {
+            let p = self.pivots[k];
+            x.re.swap(k, p);
+            x.im.swap(k, p);
+        }
+        x
+    }
+
     /// A⁻¹, by columns.
     pub fn inverse(&self) -> [Point<V>; V] {
         std::array::from_fn(|k| {

@@ -6,7 +6,7 @@
 //! many for each; so they can be followed ([`track`]) from a system whose points are known while its
 //! coefficients turn into the robot's, and none is lost. That none *was* lost is no matter of belief: each is
 //! proved afterwards ([`prove`]), and when as many different ones are proved as there can be, the list is
-//! complete.
+//! complete. Those of special robots that are no orientations are zeros of other equations ([`zeros`]).
 
 mod forms;
 mod linear;
@@ -15,11 +15,15 @@ mod prove;
 mod quaternion;
 mod solve;
 mod track;
+mod zeros;
 
 pub(super) use forms::Quadrics;
 pub(super) use point::Point;
+pub(super) use prove::Proved;
 pub(super) use quaternion::{rotation, turned_product};
 pub(super) use solve::Problem;
+pub(super) use track::Ends;
+pub(super) use zeros::{Number, System, double, single, zero};
 #[cfg(test)]
 pub(super) use {
     forms::Family,

@@ -31,6 +31,11 @@ impl<'a, const V: usize, const F: usize> Problem<'a, V, F> {
         Self { start, points, forms, target }
     }
 
+    /// The enclosures of its forms.
+    pub fn forms(&self) -> &Enclosed<V, F> {
+        &self.forms
+    }
+
     /// Follows all paths; again and with care those that were lost or came to the same point as another.
     ///
     /// The ends are different points, as far as numbers tell; real ones have real coordinates.
