@@ -32,7 +32,7 @@ pub fn on_start(error: &StartError) -> &'static str {
 /// What to do where no configuration to start from is found.
 pub fn on_no_start(error: &NoStart) -> &'static str {
     match error {
-        NoStart::Unbounded(_) | NoStart::NotFound { .. } => " (`--pose`)",
+        NoStart::Unbounded(_) | NoStart::NotFound { .. } => " with --pose",
         _ => "",
     }
 }
