@@ -88,7 +88,8 @@ impl Analysis {
 
     /// Writes the report into a directory; returns the paths written.
     fn report(&self, py: Python<'_>, directory: PathBuf) -> PyResult<Vec<PathBuf>> {
-        Ok(threads::detached(py, || aspecta_view::write_report(&self.0, &directory))?)
+        let written = threads::detached(py, || aspecta_view::write_report(&self.0, &directory));
+        written.map_err(|reason| error::at(&directory, reason))
     }
 
     /// The map of some aspects.
@@ -124,17 +125,18 @@ impl Analysis {
         found.or_partial(py, |map| Ok(Map::from(map.map_err(error::of)?)))
     }
 
-    /// The graph of aspects and changes of mode, as JSON.
+    /// The graph of aspects and changes of mode, as JSON and as SVG.
     fn modes(
         &self,
         py: Python<'_>,
         seconds: Option<f64>,
         progress: Option<Bound<'_, PyAny>>,
-    ) -> PyResult<(String, String)> {
-        let analysis = Arc::clone(&self.0);
+    ) -> PyResult<Py<PyAny>> {
+        let (analysis, robot) = (Arc::clone(&self.0), self.0.robot.clone());
         let look = move |control: &Control<'_>| ModeGraph::new(&analysis, control);
-        let graph = watched_within(py, seconds, progress.as_ref(), look)?.whole()?;
-        Ok((error::json(&graph)?, aspecta_view::mode_graph(&self.0.robot, &graph)))
+        let found = watched_within(py, seconds, progress.as_ref(), look)?;
+        found
+            .or_partial(py, move |graph| Ok((error::json(&graph)?, aspecta_view::mode_graph(&robot, &graph))))
     }
 
     /// Which aspects hold a set of poses, as JSON: `kind` is `box`, `round`, `poses` or `paths`.
@@ -171,7 +173,9 @@ impl Analysis {
         error::json(&found.whole()?.map_err(error::of)?)
     }
 
-    /// A motion between two configurations; through changes of mode if these differ or `through` says so.
+    /// A motion between two configurations; through changes of mode if these differ or `through` says so, which are looked for
+    /// so many seconds.
+    #[expect(clippy::too_many_arguments, reason = "an argument is a keyword of Python's")]
     fn plan(
         &self,
         py: Python<'_>,
@@ -179,17 +183,18 @@ impl Analysis {
         modes: [String; 2],
         through: bool,
         wanted: Wanted,
+        seconds: Option<f64>,
         progress: Option<Bound<'_, PyAny>>,
     ) -> PyResult<Planned> {
         let mode = |signs: &str| signs.parse::<WorkingMode>().map_err(error::of);
         let (from, to) = (mode(&modes[0])?, mode(&modes[1])?);
         let (analysis, options) = (Arc::clone(&self.0), plan_options(wanted));
-        let found = watched(py, progress.as_ref(), move |_| {
+        let found = watched_within(py, seconds, progress.as_ref(), move |control| {
             let mut planner = Planner::new(&analysis);
             if !through && from == to {
                 return Ok(planner.plan(&ends[0], &ends[1], from, &options)?.into());
             }
-            let graph = ModeGraph::new(&analysis, &Control::unwatched());
+            let graph = ModeGraph::new(&analysis, control);
             let [start, goal] =
                 [(&ends[0], from), (&ends[1], to)].map(|(pose, mode)| Configuration { pose, mode });
             planner.route(&graph, start, goal, &options)

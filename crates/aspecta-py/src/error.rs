@@ -6,6 +6,8 @@ use pyo3::create_exception;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use serde::Serialize;
+use std::fmt::Display;
+use std::path::Path;
 
 create_exception!(
     aspecta,
@@ -13,11 +15,25 @@ create_exception!(
     PyValueError,
     "Input that makes no sense for the robot, or a question it cannot be asked."
 );
-create_exception!(aspecta, NoPlan, Error, "There is no motion, or none was found: `proved` tells which.");
+create_exception!(
+    aspecta,
+    NoPlan,
+    Error,
+    "There is no motion, or none was found.
+
+Attributes:
+    proved: whether it is proved that there is none.
+    finer: whether finer boxes may find one."
+);
 
 /// An error of the libraries.
 pub fn of(error: impl Into<aspecta::Error>) -> PyErr {
     Error::new_err(error.into().to_string())
+}
+
+/// What is wrong with a file or a directory, which is named.
+pub fn at(path: &Path, reason: impl Display) -> PyErr {
+    Error::new_err(format!("`{}`: {reason}", path.display()))
 }
 
 /// The refusal to plan: `proved` where there is no motion at all, `finer` where finer boxes may find one.

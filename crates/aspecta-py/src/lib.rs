@@ -70,14 +70,18 @@ fn coarse_depth(free: usize) -> Option<u32> {
     aspecta::Budget::coarse(free).depth
 }
 
-/// Writes a file, which is there only when it is complete.
+/// Writes a file, which is there only when it is complete, into a directory that is there.
 #[pyfunction]
 fn write(py: Python<'_>, path: PathBuf, content: &[u8]) -> PyResult<()> {
     let (Some(directory), Some(name)) = (path.parent(), path.file_name().and_then(|name| name.to_str()))
     else {
         return Err(error::Error::new_err(format!("`{}` is no name of a file", path.display())));
     };
-    py.detach(|| aspecta_view::file::put(directory, name, content))?;
+    if !directory.as_os_str().is_empty() && !directory.is_dir() {
+        return Err(error::at(&path, "there is no such directory to write it into"));
+    }
+    py.detach(|| aspecta_view::file::put(directory, name, content))
+        .map_err(|reason| error::at(&path, reason))?;
     Ok(())
 }
 

@@ -12,6 +12,7 @@ use numpy::PyReadonlyArray2;
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -37,7 +38,8 @@ type Grid<'py> = (Vec<usize>, Vec<f64>, Vec<f64>, Vec<usize>, Bound<'py, PyArray
 impl Map {
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        Ok(threads::detached(py, || aspecta::Map::load(&path)).map_err(error::of)?.into())
+        let map = threads::detached(py, || aspecta::Map::load(&path));
+        Ok(map.map_err(|reason| error::at(&path, reason))?.into())
     }
 
     #[staticmethod]
@@ -64,6 +66,15 @@ impl Map {
     #[getter]
     fn coordinates(&self) -> Vec<&'static str> {
         self.0.robot.platform.coordinates().iter().map(|coordinate| coordinate.name).collect()
+    }
+
+    /// The pose coordinates with their units, by name.
+    #[getter]
+    fn labels(&self) -> BTreeMap<&'static str, String> {
+        let robot = &self.0.robot;
+        let unit = |angle| if angle { "rad" } else { &robot.length_unit };
+        let coordinates = robot.platform.coordinates().iter();
+        coordinates.map(|c| (c.name, format!("{} [{}]", c.name, unit(c.angle)))).collect()
     }
 
     /// The numbers of the aspects that are cut into regions.
@@ -128,7 +139,8 @@ impl Map {
         let choice = Choice { meshes, held: LegIndex::new(held) };
         let cut =
             Cut { map: &self.0, domains, boundary: &surfaces.boundary, surface: &surfaces.characteristic };
-        Ok(Some(threads::detached(py, || write_domains(&cut, &choice, &directory))?))
+        let written = threads::detached(py, || write_domains(&cut, &choice, &directory));
+        written.map(Some).map_err(|reason| error::at(&directory, reason))
     }
 
     /// Locates every row of an array.

@@ -34,13 +34,13 @@ pub fn join_solutions(
     q: Vec<f64>,
     effort: (usize, Option<f64>),
     progress: Option<Bound<'_, PyAny>>,
-) -> PyResult<String> {
+) -> PyResult<Py<PyAny>> {
     let (robot, effort) = (Arc::clone(&robot.robot), Effort { samples: effort.0, seconds: effort.1 });
     let found = watched(py, progress.as_ref(), move |control| {
         let found = robot.direct_certified(&q)?;
         Ok::<_, aspecta::Error>(roadmap::join_solutions(&robot, &q, found, &effort, control)?)
     })?;
-    error::json(&found.whole()?.map_err(error::of)?)
+    found.or_partial(py, |found| error::json(&found.map_err(error::of)?))
 }
 
 /// A motion of a free body over a roadmap.
@@ -76,7 +76,7 @@ pub fn cusps(
     boxes: Option<u64>,
     seconds: Option<f64>,
     progress: Option<Bound<'_, PyAny>>,
-) -> PyResult<String> {
+) -> PyResult<Py<PyAny>> {
     let usual = CuspOptions::default();
     let mode = mode.map(|mode| robot.mode(mode)).transpose()?;
     let fix = fix.into_iter().map(|(joint, value)| (LegIndex::new(joint), value)).collect();
@@ -90,5 +90,5 @@ pub fn cusps(
             serde_json::to_string(&aspecta::cusps(&robot, &options, control)?)?
         })
     })?;
-    found.whole()?.map_err(error::of)
+    found.or_partial(py, |found| found.map_err(error::of))
 }

@@ -109,6 +109,14 @@ impl Robot {
 
     /// The names of the limits that the robot goes beyond at a pose, in a mode.
     fn beyond(&self, pose: Vec<f64>, mode: &str) -> PyResult<Vec<String>> {
+        let unreached = self.robot.out_of_reach(&pose).map_err(error::of)?;
+        if !unreached.is_empty() {
+            let legs: Vec<String> = unreached.iter().map(|leg| format!("leg {}", leg.leg)).collect();
+            return Err(error::Error::new_err(format!(
+                "the pose is out of reach of {}: no joint vector belongs to it, so none is beyond its limits",
+                legs.join(", ")
+            )));
+        }
         let broken = self.robot.broken_limits(&pose, self.mode(mode)?).map_err(error::of)?;
         Ok(broken.into_iter().map(|bound| bound.named(&self.robot)).collect())
     }

@@ -133,7 +133,8 @@ pub fn watched_within<T: Send + 'static>(
         drop(done.send(result));
     })?;
     // A time too long to be told is no limit.
-    let mut left = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+    let limit = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+    let mut left = limit;
     loop {
         let coming = &mut results;
         let tick = left.map_or(TICK, |left| left.min(TICK));
@@ -141,7 +142,7 @@ pub fn watched_within<T: Send + 'static>(
             Ok(result) => return Ok(Watched::Done(result)),
             Err(RecvTimeoutError::Timeout) => {
                 left = left.and_then(|left| left.checked_sub(tick)).filter(|left| !left.is_zero());
-                if seconds.is_some() && left.is_none() {
+                if limit.is_some() && left.is_none() {
                     shared.cancelled.store(true, Ordering::Relaxed);
                 }
             }

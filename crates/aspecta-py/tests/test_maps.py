@@ -1,6 +1,5 @@
 """Maps: regions, surfaces, pictures."""
 
-import copy
 import pickle
 from pathlib import Path
 
@@ -101,7 +100,7 @@ def test_surfaces_that_were_not_asked_for_are_missed(analysis: aspecta.Analysis,
     with pytest.raises(aspecta.Error, match="surfaces=True"):
         bare.draw(tmp_path / "none")
     assert not (tmp_path / "none").exists()
-    alone = copy.deepcopy(bare.domains(1))
+    alone = pickle.loads(pickle.dumps(bare.domains(1)))
     assert alone == bare.domains(1)
     with pytest.raises(aspecta.Error, match="pickle their map"):
         _ = alone.grid
@@ -109,8 +108,35 @@ def test_surfaces_that_were_not_asked_for_are_missed(analysis: aspecta.Analysis,
 
 def test_regions_are_drawn(analysis: aspecta.Analysis, surfaces: aspecta.Domains) -> None:
     ax = analysis.domains(1, cells=60, samples=100).domains(1).plot(domain=1)
-    assert ax.get_xlabel() == "x" and len(ax.images) == 1 and len(ax.collections) == 2
-    assert surfaces.plot(at={"phi": 0.1}).get_ylabel() == "y"
+    assert ax.get_xlabel() == "x [unit]" and len(ax.images) == 1 and len(ax.collections) == 2
+    assert surfaces.plot(at={"phi": 0.1}).get_ylabel() == "y [unit]"
     for wrong in ({}, {"at": {"phi": 99.0}}, {"at": {"z": 0.0}}, {"at": {"phi": 0.1}, "domain": 1000}):
         with pytest.raises(aspecta.Error):
             surfaces.plot(**wrong)  # type: ignore[arg-type]
+    with pytest.raises(aspecta.Error, match="1 coordinate left to vary"):
+        surfaces.plot(at={"phi": 0.1, "x": 0.0})
+
+
+def test_aspects_are_named_by_themselves_or_by_number(analysis: aspecta.Analysis, tmp_path: Path) -> None:
+    first, third = (a for a in analysis.aspects if a.id in (1, 3))
+    found = analysis.domains([first, np.int64(3)], cells=20, samples=0)
+    assert found.aspects == [1, 3] == analysis.domains(np.array([1, 3]), cells=20, samples=0).aspects
+    assert found.domains(third) == found.domains(np.int32(3)) == found.domains(3)  # type: ignore[arg-type]
+    assert found.draw(tmp_path, first, meshes=[]) == found.draw(tmp_path, np.int8(1), meshes=[])  # type: ignore[arg-type]
+    for wrong in ({"aspects": 1.5}, {"aspects": 1, "mode": "--"}, {"aspects": 1, "samples": 10**9}):
+        with pytest.raises(aspecta.Error, match=r"aspect|samples"):
+            analysis.domains(**wrong)  # type: ignore[arg-type]
+
+
+def test_errors_of_files_name_them(analysis: aspecta.Analysis, tmp_path: Path) -> None:
+    found, certificate = analysis.domains(1, cells=20, samples=0), aspecta.Certificate("{}")
+    missing, directory = tmp_path / "missing" / "file", tmp_path / "directory"
+    directory.mkdir()
+    for write in (found.save, certificate.save, aspecta.Map.load):
+        for path in (missing, directory):
+            with pytest.raises(aspecta.Error, match=f"`{path}`: "):
+                write(path)
+    assert not missing.parent.exists()
+    (tmp_path / "file").write_text("")
+    with pytest.raises(aspecta.Error, match="file`: "):
+        found.draw(tmp_path / "file")

@@ -3,6 +3,7 @@
 import copy
 import pickle
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -52,6 +53,14 @@ def test_an_array_that_does_not_fit_is_refused(five_bar: aspecta.Robot) -> None:
     assert len(five_bar.ik(np.empty((0, 2)))) == 0
 
 
+@pytest.mark.parametrize(
+    "pose", [np.ma.array([4.0, 7.0], mask=[False, True]), [4, None], [4, "7"], ["4", "7"], [4, 7j], [[4, 7], [4]]]
+)
+def test_what_is_no_number_is_refused(five_bar: aspecta.Robot, pose: Any) -> None:
+    with pytest.raises(aspecta.Error, match=r"masked|is no number|differ in length"):
+        five_bar.ik(pose)
+
+
 def test_postures_have_names(five_bar: aspecta.Robot) -> None:
     assert (
         five_bar.mode_in_words("+-") == "left,right" and aspecta.Robot("gough-stewart").mode_in_words("------") is None
@@ -66,6 +75,8 @@ def test_limits_that_are_broken_are_named() -> None:
     robot = aspecta.Robot(platform="plane-point", legs=[leg, {"anchor": [9, 0], **LEG}], window={"y": [-20, 6]})
     assert not robot.ik([4, 7])[0].within_limits
     assert len(robot.limits_beyond([4, 7], "++")) == 2
+    with pytest.raises(aspecta.Error, match="out of reach of leg 1, leg 2"):
+        robot.limits_beyond([40, 7], "++")
 
 
 def test_degrees_taken_for_radians_are_warned_of() -> None:
@@ -112,6 +123,50 @@ def test_motions_that_a_platform_cannot_make_are_refused() -> None:
         aspecta.Robot("hexa").ik([0, 0, -700], quaternion_wxyz=[0, 0, 0, 0])
     level = aspecta.Robot("delta").ik(poses.to_matrix("translating-body", [0, 0, -900]))
     assert np.array_equal(level[0].q, aspecta.Robot("delta").ik([0, 0, -900])[0].q)
+
+
+def test_a_matrix_is_a_pose_wherever_one_is_asked_for() -> None:
+    robot = aspecta.Robot("gough-stewart")
+    pose = [0.2, 0.1, 0.9, 0.5, 1.4, 0.2]
+    matrix, start = robot.matrix(pose), robot.ik(pose, mode="------")[0]
+    assert robot.plan(matrix, matrix, mode="------").proved
+    assert robot.limits_beyond(matrix, "------") == robot.limits_beyond(pose, "------")
+    assert np.allclose(robot.follower(matrix, start.q).pose, pose)
+    assert np.allclose(robot.inverse_follower(matrix, "------").q, start.q)
+    assert "<mujoco" in robot.to_mjcf(matrix, "------")
+    for wrong in (matrix[None], matrix[:3], np.eye(5)):
+        with pytest.raises(aspecta.Error, match="shape"):
+            robot.follower(wrong, start.q)
+    for unfit in ([1, 2], [*pose[:5], np.nan]):
+        with pytest.raises(aspecta.Error, match=r"finite numbers \(…, 6\)"):
+            robot.matrix(unfit)
+
+
+def test_orientations_of_a_turning_body() -> None:
+    robot = aspecta.Robot("spherical-3-rrr")
+    wxyz = [np.cos(0.1), 0, 0, np.sin(0.1)]
+    assert np.allclose(robot.ik(quaternion_wxyz=wxyz)[0].pose, [0, 0, 0.2])
+    assert np.allclose(robot.ik(np.zeros((2, 3)), quaternion_wxyz=[wxyz] * 2).pose[0], [0, 0, 0.2])
+    with pytest.raises(aspecta.Error, match="does not move away"):
+        robot.ik([1, 0, 0], quaternion_wxyz=wxyz)
+    with pytest.raises(aspecta.Error, match=r"homogeneous matrix \(4, 4\)"):
+        robot.ik(robot.matrix([0, 0, 0.2])[:3, :3])
+    assert len(robot.ik(np.eye(3) * 0.1)) == 3
+
+
+@pytest.mark.parametrize(
+    ("given", "why"),
+    [
+        ({"quaternion_xyzw": [0, 0, 0, 1]}, "give the positions"),
+        ({"pose": [0, 0, 1], "quaternion_xyzw": [0, 0, 1]}, r"quaternion of shape \(3,\)"),
+        ({"pose": [[0, 0, 1]], "quaternion_xyzw": [0, 0, 0, 1]}, r"positions \(1, 3\) and quaternions \(4,\)"),
+        ({"pose": [0, 0, 1], "quaternion_xyzw": [1, 0, 0, 0], "quaternion_wxyz": [1, 0, 0, 0]}, "quaternion_xyzw and"),
+        ({}, "give a pose"),
+    ],
+)
+def test_quaternions_that_do_not_fit_are_refused(given: dict[str, Any], why: str) -> None:
+    with pytest.raises(aspecta.Error, match=why):
+        aspecta.Robot("gough-stewart").ik(**given)
 
 
 def test_a_pitch_of_a_right_angle_gives_a_rotation_back() -> None:

@@ -41,7 +41,9 @@ def test_a_time_ends_work_and_keeps_what_there_is(five_bar: aspecta.Robot) -> No
     certificate = five_bar.analyze(certificate=True).certificate
     assert certificate is not None
     ended = certificate.verify(seconds=1e-9)
-    assert not ended and not ended.verified and certificate.verify(seconds=1e9)
+    assert not ended and ended.verified is None and str(ended).endswith("not all was checked, it was stopped")
+    assert certificate.verify(seconds=1e9) and certificate.verify(seconds=1e30)
+    assert five_bar.analyze().modes(seconds=1e300).searched
     found = aspecta.Robot("3-rrr").analyze(depth=4)
     assert found.domains(cells=200, surfaces=False, seconds=1e-9).aspects == []
     assert not found.modes(seconds=1e-9).searched and five_bar.analyze().modes().searched
@@ -58,8 +60,9 @@ def test_the_number_of_threads_is_chosen(five_bar: aspecta.Robot) -> None:
         assert five_bar.analyze(depth=6).classes == alone
     finally:
         aspecta.set_threads(None)
-    with pytest.raises(aspecta.Error, match="count = 0"):
-        aspecta.set_threads(0)
+    for count in (0, 1025):
+        with pytest.raises(aspecta.Error, match=f"count = {count}"):
+            aspecta.set_threads(count)
 
 
 def test_ctrl_c_raises_and_keeps_what_there_is() -> None:
@@ -74,6 +77,33 @@ except KeyboardInterrupt as interrupt:
 """
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     assert done.stdout == "interrupted Analysis True\n"
+
+
+@pytest.mark.parametrize(
+    ("work", "kept"),
+    [
+        ("found.modes()", "ModeGraph"),
+        ("robot.cusps()", "Cusps"),
+        (
+            "robot.plan([-15.468, 0.781, 0.073], [-9.902, -7.091, 1.081], mode='+++', to_mode='++-', depth=12)",
+            "NoneType",
+        ),
+        ("robot.assembly(robot.ik([-15.468, 0.781, 0.073])[0].q, depth=12)", "NoneType"),
+    ],
+)
+def test_ctrl_c_tells_whether_there_is_something(work: str, kept: str) -> None:
+    script = f"""
+import _thread, threading, aspecta
+robot = aspecta.Robot("3-rrr")
+found = robot.analyze(depth=5)
+threading.Timer(0.3, _thread.interrupt_main).start()
+try:
+    {work}
+except KeyboardInterrupt as interrupt:
+    print(type(interrupt.partial()).__name__)
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert done.stdout == f"{kept}\n"
 
 
 def test_a_hundred_thousand_calls_leak_nothing() -> None:
@@ -117,6 +147,8 @@ def test_every_public_name_is_documented_and_typed() -> None:
         for key, member in vars(thing).items() if isinstance(thing, type) else ():
             if callable(member) and not key.startswith("_"):
                 assert member.__doc__, f"{name}.{key}"
+        for field in thing.__annotations__ if isinstance(thing, type) else ():
+            assert field.startswith("_") or f"    {field}: " in thing.__doc__, f"{name}.{field}"
 
 
 @pytest.mark.parametrize("tool", [["mypy", "--strict"], ["mypy.stubtest", "aspecta"]])

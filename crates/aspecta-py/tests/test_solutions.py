@@ -67,13 +67,37 @@ def test_a_batch_is_a_sequence_and_a_table(five_bar: aspecta.Robot) -> None:
     again = pickle.loads(pickle.dumps(batch))
     assert np.array_equal(again.q, batch.q) and again.counts.tolist() == [4, 0, 4]
     for frame in (batch.to_pandas(), batch.to_polars()):
-        assert list(frame.columns[:4]) == ["row", "mode", "x1", "x2"] and len(frame) == 8
+        assert list(frame.columns[:4]) == ["row", "mode", "x", "y"] and len(frame) == 8
     assert (
         "8 solutions of 3 rows" in str(batch)
         and str(batch[0]).startswith("4 solutions\n")
         and "proved" not in str(batch)
     )
     assert pickle.loads(pickle.dumps(batch[0]))[0].mode == "++"
+    assert str(five_bar.ik([[13, 0]])) == "4 solutions of 1 row"
+
+
+def test_a_mode_is_chosen_as_everywhere(five_bar: aspecta.Robot) -> None:
+    batch = five_bar.ik([[4, 7], [5, 6]])
+    for each in (batch, pickle.loads(pickle.dumps(batch))):
+        assert each.in_mode("left,right").modes.tolist() == ["+-", "+-"] == each.in_mode("+-").modes.tolist()
+        with pytest.raises(aspecta.Error, match="not a working mode"):
+            each.in_mode("+")
+
+
+def test_solutions_are_values_and_a_table(five_bar: aspecta.Robot) -> None:
+    found, again = five_bar.ik([4, 7]), five_bar.ik([[4, 7]])[0]
+    assert list(found) == list(again) and again[2] in found and found.index(again[2]) == 2 and found[0] != found[1]
+    for frame in (found.to_pandas(), found.to_polars()):
+        columns = ["mode", "x", "y", "q1", "q2", "det_a", "certified", "within_limits"]
+        assert list(frame.columns) == columns and list(frame["mode"]) == ["++", "+-", "--", "-+"]
+    assert len(five_bar.ik([40, 7]).to_pandas()) == 0 and "<th>x</th>" in found._repr_html_()
+    singular = five_bar.ik([13, 0])
+    assert "serial: leg 1" in str(singular) and "serial: leg 1" in singular._repr_html_() and "serial" not in str(found)
+    assert five_bar.state(found[0]) == five_bar.state(found[0].pose, found[0].q)
+    for ask in (lambda: five_bar.state(found[0], found[0].q), lambda: five_bar.state([4, 7])):  # type: ignore[call-overload]
+        with pytest.raises(aspecta.Error, match="solution"):
+            ask()
 
 
 def test_states_of_many(five_bar: aspecta.Robot) -> None:

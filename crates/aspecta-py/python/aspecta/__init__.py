@@ -22,15 +22,13 @@ from aspecta.analysis import Analysis, Aspect
 from aspecta.certificates import Certificate, verify
 from aspecta.follow import Follower, InverseFollower, JointStep, Step
 from aspecta.maps import Domains, Location, Map, Regions, Surface
+from aspecta.paths import Motion, PathCheck, Plan
 from aspecta.results import (
     AssemblyModes,
     Cusps,
     Exploration,
     JoinedSolutions,
     ModeGraph,
-    Motion,
-    PathCheck,
-    Plan,
     State,
     Traversability,
     Verdict,
@@ -97,9 +95,9 @@ def schema() -> dict[str, Any]:
 
 
 def set_threads(count: int | None) -> None:
-    """Let work that begins from now on, in this process, have so many threads; ``None``: one a core. No result depends on it.
+    """Let work that begins from now on, in this process, have so many threads, at most 1024; ``None``: one a core. No result depends on it.
 
     >>> set_threads(1)
     >>> set_threads(None)
     """
-    _native.set_threads(_input.whole("count", count, 1) or 0)
+    _native.set_threads(_input.whole("count", count, 1, 1024) or 0)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import html
 import json
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any
 
@@ -155,15 +155,73 @@ class Description:
         heading = f"<b>{html.escape(self.name)}</b> {html.escape(self.title)}"
         return f"{heading}<details><summary>robot file</summary><pre>{html.escape(self.to_toml())}</pre></details>"
 
+    @property
+    def _pose_labels(self) -> list[str]:
+        """The pose coordinates with their units."""
+        return self._labels(self._coordinates)
+
+    @property
+    def _joint_labels(self) -> list[str]:
+        """The joint coordinates with their units."""
+        return self._labels(self._motors)
+
+    def _labels(self, coordinates: _input.Names) -> list[str]:
+        names, angles = coordinates
+        return [f"{name} [{'rad' if k in angles else self.length_unit}]" for k, name in enumerate(names)]
+
     def _known(self, mode: str) -> str:
         """The signs of a mode, which may be given by the names of its postures."""
+        if not isinstance(mode, str):
+            raise _native.Error(f"mode = {mode!r}: give one working mode as text, one of {', '.join(self.modes)}")
         return mode if mode in self._modes else self._native.signs(mode)
 
-    def _poses(self, pose: ArrayLike, xyzw: ArrayLike | None = None, wxyz: ArrayLike | None = None) -> Array:
+    def _modes_of(self, modes: Any) -> list[str]:
+        """The signs of modes, of which one or several may be given, each once; none mean all."""
+        if not isinstance(modes, str | Iterable | None):
+            raise _native.Error(f"modes = {modes!r}: give working modes as texts, such as {self.modes[:2]}")
+        wanted = [modes] if isinstance(modes, str) else modes or ()
+        return list(dict.fromkeys(map(self._known, wanted)))
+
+    def _poses(self, pose: ArrayLike | None, xyzw: ArrayLike | None = None, wxyz: ArrayLike | None = None) -> Array:
         """One pose (dof,), or rows of several (n, dof)."""
-        given = np.asarray(pose, dtype=float)
         if xyzw is not None or wxyz is not None:
-            given = poses.from_quaternion(self.platform, given, xyzw=xyzw, wxyz=wxyz)
-        elif given.shape[-2:] == (4, 4) and given.ndim <= 3:
-            given = poses.from_matrix(self.platform, given)
+            if xyzw is not None and wxyz is not None:
+                raise _native.Error("give one of quaternion_xyzw and quaternion_wxyz")
+            given = poses.from_quaternion(self.platform, pose, xyzw=xyzw, wxyz=wxyz)
+        elif pose is None:
+            raise _native.Error(f"give a pose ({', '.join(self.pose_names)})")
+        else:
+            given = _input.numbers("a pose", pose)
+            if _are_matrices(given):
+                given = poses.from_matrix(self.platform, given)
+            elif self.platform == "turning-body" and given.shape == (3, 3) and poses.is_rotation(given):
+                raise _native.Error(
+                    "a rotation matrix (3, 3) could be three rows of angles: give a homogeneous matrix (4, 4), or angles"
+                )
         return _input.fitting(given, self._coordinates, self.name)
+
+    def _pose(self, name: str, pose: ArrayLike, before: ArrayLike | None = None) -> list[float]:
+        """One pose; of a matrix, the angles nearest to those of a pose before."""
+        given = _input.numbers(name, pose)
+        if not _are_matrices(given):
+            return _input.one(name, given, self._coordinates, self.name)
+        rows = np.atleast_2d(self._poses(given))
+        if len(rows) != 1 or given.ndim != 2:
+            raise _native.Error(f"{name} of shape {given.shape}: give one matrix (4, 4) alone")
+        return poses.nearest(self.platform, rows, before)[0].tolist()  # type: ignore[no-any-return]
+
+    def _joints(self, name: str, q: ArrayLike) -> list[float]:
+        """One joint vector."""
+        return _input.one(name, q, self._motors, self.name)
+
+    def _path(self, name: str, path: ArrayLike) -> list[list[float]]:
+        """The rows of a path; of matrices, each in the angles nearest to those of the row before."""
+        given = _input.numbers(name, path)
+        rows = np.atleast_2d(self._poses(given))
+        found = poses.nearest(self.platform, rows) if _are_matrices(given) else rows
+        return found.tolist()  # type: ignore[no-any-return]
+
+
+def _are_matrices(given: Array) -> bool:
+    """Whether an array holds homogeneous matrices: no robot has four coordinates."""
+    return given.shape[-2:] == (4, 4) and given.ndim <= 3

@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from aspecta import _native
+from aspecta._table import counted
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from aspecta.analysis import Analysis
     from aspecta.maps import Domains
-    from aspecta.results import PathCheck
+    from aspecta.paths import PathCheck
 
 #: Undecided cells.
 _GREY = "0.8"
@@ -44,9 +45,6 @@ def aspects(analysis: Analysis, ax: Axes | None, mode: str | None, space: str, a
     """Draw the aspects of an analysis."""
     ax = _axes(ax)
     names = [analysis.robot.pose_names[k] for k in analysis._boxes().axes]
-    unknown = set(at) - set(names)
-    if unknown:
-        raise _native.Error(f"at: `{min(unknown)}` does not vary here; {', '.join(names)} do")
     drawn: set[int] = set()
     for c in analysis.classes:
         if mode not in (None, c["mode"]):
@@ -54,25 +52,28 @@ def aspects(analysis: Analysis, ax: Axes | None, mode: str | None, space: str, a
         lo, hi, aspect = analysis.cells(c["mode"], c["det_a"])
         for name, value in at.items():
             k = names.index(name)
-            kept = (lo[:, k] <= value) & (value < hi[:, k])
+            # At the upper end of all, the last ones.
+            kept = (lo[:, k] <= value) & ((value < hi[:, k]) | (value == hi.max(axis=0, initial=value)[k]))
             lo, hi, aspect = lo[kept], hi[kept], aspect[kept]
         free = [k for k, name in enumerate(names) if name not in at]
         for number in sorted(set(aspect.tolist())):
             some = aspect == number
-            label = None if number in drawn or number == 0 else f"{number}: {c['mode']} det A {c['det_a']}"
+            known = f"{number}: {c['mode']} det A {c['det_a']}" if number else "undecided"
+            label = None if number in drawn else known
             if space == "joint":
                 _images(ax, analysis, c["mode"], lo[some], hi[some], number, label, at)
             else:
                 _cells(ax, lo[some][:, free], hi[some][:, free], number, label)
             drawn.add(number)
-    shown = analysis.robot.joint_names if space == "joint" else [n for n in names if n not in at]
-    ax.set_xlabel(shown[0])
-    if len(shown) > 1:
-        ax.set_ylabel(shown[1])
+    robot = analysis.robot
+    shown = [robot.pose_names.index(name) for name in names if name not in at]
+    labels = robot._joint_labels if space == "joint" else [robot._pose_labels[k] for k in shown]
+    ax.set_xlabel(labels[0])
+    ax.set_ylabel(labels[1] if len(labels) > 1 else "aspect")
     ax.autoscale_view()
-    if space == "pose" and len(shown) == 2 and {"x", "y", "z"}.issuperset(shown):
+    if space == "pose" and len(shown) == 2 and {"x", "y", "z"}.issuperset(robot.pose_names[k] for k in shown):
         ax.set_aspect("equal")
-    if drawn - {0}:
+    if ax.get_legend_handles_labels()[0]:
         ax.legend(fontsize="small", loc="upper left", bbox_to_anchor=(1, 1))
     return ax
 
@@ -89,7 +90,15 @@ def _cells(ax: Axes, lo: Any, hi: Any, number: int, label: str | None) -> None:
     corners = np.stack([lo, np.column_stack([hi[:, 0], lo[:, 1]]), hi, np.column_stack([lo[:, 0], hi[:, 1]])], axis=1)
     colour = _colour(number) if number else _GREY
     ax.add_collection(
-        PolyCollection(list(corners), facecolor=colour, edgecolor="none", alpha=0.6 if number else 1, label=label)
+        # What is undecided in one class hides no aspect of another.
+        PolyCollection(
+            list(corners),
+            facecolor=colour,
+            edgecolor="none",
+            alpha=0.6 if number else 1,
+            zorder=1 if number else 0.5,
+            label=label,
+        )
     )
 
 
@@ -111,7 +120,7 @@ def _images(
     def joints(pairs: Any) -> Any:
         """q1 and q2 at values (n, 2) of the free coordinates; nan where the legs do not reach, to rounding."""
         poses = np.zeros((len(pairs), robot.dof))
-        for held in analysis.to_dict()["fixed"]:
+        for held in analysis.fixed:
             poses[:, names.index(held["coordinate"])] = held["value"]
         for name, value in at.items():
             poses[:, names.index(name)] = value
@@ -148,24 +157,20 @@ def regions(domains: Domains, ax: Axes | None, at: Mapping[str, float], number: 
 
     grid = domains.grid
     names, labels = list(grid.coordinates), grid.labels
-    unknown = set(at) - set(names)
-    if unknown:
-        raise _native.Error(f"at: `{min(unknown)}` does not vary here; {', '.join(names)} do")
     cut: list[Any] = [slice(None)] * len(names)
     for name, value in at.items():
         edges = grid.edges[names.index(name)]
-        if not edges[0] <= value <= edges[-1]:
-            raise _native.Error(f"at: {name} = {value:g} lies outside the aspect, {edges[0]:g} to {edges[-1]:g}")
         cut[names.index(name)] = min(int(np.searchsorted(edges, value, side="right")) - 1, len(edges) - 2)
     free = [k for k, name in enumerate(names) if name not in at]
     if len(free) != 2:
+        remedy = f"such as with at={{{names[-1]!r}: 0}}" if len(free) > 2 else "cut at fewer"
         raise _native.Error(
-            f"{len(free)} coordinates vary: regions are drawn where two do, such as with at={{{names[-1]!r}: 0}}"
+            f"{counted(len(free), 'coordinate')} left to vary: regions are drawn where two do, {remedy}"
         )
     labels = labels[tuple(cut)]
     shown = {region["number"] for region in domains.regions}
     if number is not None:
-        if not 1 <= number <= len(domains.uniqueness):
+        if number > len(domains.uniqueness):
             raise _native.Error(
                 f"there is no uniqueness domain {number}: there are {len(domains.uniqueness)}, numbered from 1"
             )
@@ -186,8 +191,9 @@ def regions(domains: Domains, ax: Axes | None, at: Mapping[str, float], number: 
         for surface, style in zip(domains.surfaces, ("-", "--"), strict=True):
             lines = surface.vertices[surface.simplices]
             ax.add_collection(LineCollection(list(lines), color="black", linestyle=style, linewidth=0.8))
-    ax.set_xlabel(names[free[0]])
-    ax.set_ylabel(names[free[1]])
+    axes = domains._mapped().labels
+    ax.set_xlabel(axes[names[free[0]]])
+    ax.set_ylabel(axes[names[free[1]]])
     ax.set_aspect("equal" if {"x", "y", "z"}.issuperset(names[k] for k in free) else "auto")
     if shown:
         ax.legend(fontsize="small", loc="upper left", bbox_to_anchor=(1, 1))

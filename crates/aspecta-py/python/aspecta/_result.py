@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import html
 import json
 from collections.abc import Iterator
@@ -25,8 +26,8 @@ class Result:
         self._text = text
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the whole result as plain data, ready for ``json.dump``."""
-        return dict(self._data)
+        """Return the whole result as plain data of its own, ready for ``json.dump``."""
+        return copy.deepcopy(self._data)
 
     def __getattr__(self, name: str) -> Any:
         if not name.startswith("_") and name in self._data:
@@ -52,3 +53,8 @@ class Result:
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), (self._data, self._text)
+
+
+def undecided(result: Result, answer: str) -> TypeError:
+    """Return the refusal to be true or false, of a result whose answer may be undecided."""
+    return TypeError(f"a {type(result).__name__} is neither true nor false: ask its `.{answer}`")

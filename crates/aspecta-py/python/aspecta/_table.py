@@ -6,6 +6,9 @@ import html
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 
 def to_html(caption: str, heads: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
     """Return a table; numbers with six digits."""
@@ -18,6 +21,21 @@ def to_html(caption: str, heads: Sequence[str], rows: Iterable[Sequence[Any]]) -
     body = "".join(f"<tr>{''.join(map(cell, row))}</tr>" for row in rows)
     title = f'<caption style="text-align:left">{html.escape(caption)}</caption>'
     return f"<table>{title}<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+
+
+def counted(count: int, noun: str, nouns: str | None = None) -> str:
+    """Return a number of things in words."""
+    return f"{count} {noun if count == 1 else nouns or f'{noun}s'}"
+
+
+def joint_names(coordinates: Sequence[str]) -> list[str]:
+    """Return the names of as many joint coordinates as there are coordinates of a pose: q1, q2, …"""
+    return [f"q{k + 1}" for k in range(len(coordinates))]
+
+
+def columns(names: Sequence[str], values: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
+    """Return the columns of an array (n, dof) by name."""
+    return {name: values[:, k] for k, name in enumerate(names)}
 
 
 class Frame:

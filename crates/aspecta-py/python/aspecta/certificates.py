@@ -13,11 +13,14 @@ from aspecta.results import Verdict
 
 
 class Certificate:
-    """The proof of a count of aspects, as text. Made by ``robot.analyze(certificate=True).certificate``."""
+    """The proof of a count of aspects, as text. Made by ``robot.analyze(certificate=True).certificate``.
+
+    Attributes:
+        text: the certificate as JSON; ``docs/certificate.md`` describes it.
+    """
 
     __slots__ = ("text",)
 
-    #: The certificate as JSON; ``docs/certificate.md`` describes it.
     text: str
 
     def __init__(self, text: str) -> None:
@@ -29,7 +32,11 @@ class Certificate:
         return cls(Path(path).read_text(encoding="utf-8"))
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write the certificate into a file, for ``aspecta verify``."""
+        """Write the certificate into a file, for ``aspecta verify``.
+
+        Raises:
+            Error: it cannot be written there.
+        """
         _native.write(fspath(path), self.text.encode())
 
     def to_dict(self) -> Any:
@@ -39,7 +46,8 @@ class Certificate:
     def verify(self, *, seconds: float | None = None, progress: Progress = None) -> Verdict:
         """Check the certificate by code that shares next to nothing with what wrote it.
 
-        The verdict is true if all that is claimed is verified; what is not checked after ``seconds`` is not.
+        The verdict is true if all that is claimed is verified. After ``seconds`` it is of what was checked until then, and
+        not true.
 
         Raises:
             Error: the text is no certificate.

@@ -2,50 +2,55 @@
 
 from __future__ import annotations
 
-from typing import Generic, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from aspecta import _native
 
+if TYPE_CHECKING:
+    from aspecta._description import Description
+
 Array = NDArray[np.float64]
 
 
 class Step(NamedTuple):
-    """A certified step of a :class:`Follower`."""
+    """A certified step of a :class:`Follower`.
 
-    #: X, (dof,): the pose.
+    Attributes:
+        pose: X, (dof,): the pose.
+        mode: the working mode at the end.
+        mode_kept: whether it is proved that no B_jj vanishes along the step.
+        within_limits: whether joints are within their limits, and the pose in the window. Numerical.
+        length_error: a proved bound of the error of each translation.
+        angle_error: a proved bound of the error of the orientation, rad.
+        stretches: stretches that were tried: 1 where the step was proved at once.
+    """
+
     pose: Array
-    #: The working mode at the end.
     mode: str
-    #: Whether it is proved that no B_jj vanishes along the step.
     mode_kept: bool
-    #: Whether joints are within their limits, and the pose in the window. Numerical.
     within_limits: bool
-    #: A proved bound of the error of each translation.
     length_error: float
-    #: A proved bound of the error of the orientation, rad.
     angle_error: float
-    #: Stretches that were tried: 1 where the step was proved at once.
     stretches: int
 
 
 class JointStep(NamedTuple):
-    """A certified step of an :class:`InverseFollower`."""
+    """A certified step of an :class:`InverseFollower`.
 
-    #: q, (dof,): the joint vector; angles go on past ±π.
+    Attributes:
+        q: q, (dof,): the joint vector; angles go on past ±π.
+        regular: whether it is proved that det A does not vanish along the step.
+        within_limits: whether joints are within their limits, and the pose in the window. Numerical.
+        stretches: stretches that were tried: 1 where the step was proved at once.
+    """
+
     q: Array
-    #: Whether it is proved that det A does not vanish along the step.
     regular: bool
-    #: Whether joints are within their limits, and the pose in the window. Numerical.
     within_limits: bool
-    #: Stretches that were tried: 1 where the step was proved at once.
     stretches: int
-
-
-def _vector(values: ArrayLike) -> Array:
-    return np.ascontiguousarray(values, dtype=float)
 
 
 N = TypeVar("N", _native.Follower, _native.InverseFollower)
@@ -54,12 +59,14 @@ N = TypeVar("N", _native.Follower, _native.InverseFollower)
 class _Following(Generic[N]):
     """What both followers have: the configuration they are in."""
 
-    __slots__ = ("_native",)
+    __slots__ = ("_native", "_robot")
 
     _native: N
+    _robot: Description
 
-    def __init__(self, native: N) -> None:
+    def __init__(self, native: N, robot: Description) -> None:
         self._native = native
+        self._robot = robot
 
     @property
     def pose(self) -> Array:
@@ -76,6 +83,10 @@ class _Following(Generic[N]):
         """The working mode it is in."""
         return self._native.mode
 
+    def __repr__(self) -> str:
+        pose = ", ".join(f"{name} = {x:.6g}" for name, x in zip(self._robot.pose_names, self._native.pose, strict=True))
+        return f"<{type(self).__name__} of {self._robot.name} in mode {self.mode} at {pose}>"
+
 
 class Follower(_Following[_native.Follower]):
     """Follows one direct solution along joint vectors: which pose now?
@@ -83,7 +94,7 @@ class Follower(_Following[_native.Follower]):
     >>> import aspecta
     >>> robot = aspecta.Robot("five-bar")
     >>> start = robot.ik([4, 7])[0]
-    >>> follower = robot.follower(start.pose, start.q)
+    >>> follower = robot.follower(start)
     >>> step = follower.step(start.q + 0.01)
     >>> step.mode == start.mode, step.mode_kept
     (True, True)
@@ -98,7 +109,8 @@ class Follower(_Following[_native.Follower]):
             Error: a singularity is ahead, the step is too long, or the numbers cannot be used. The follower then stays where
                 it was.
         """
-        return Step._make(self._native.step(_vector(q)))
+        given = np.ascontiguousarray(q, dtype=float)
+        return Step._make(self._native.step(given if given.ndim == 1 else np.array(self._robot._joints("q", q))))
 
 
 class InverseFollower(_Following[_native.InverseFollower]):
@@ -109,7 +121,12 @@ class InverseFollower(_Following[_native.InverseFollower]):
     def step(self, pose: ArrayLike) -> JointStep:
         """Go to the pose X (dof,), straight.
 
+        A homogeneous matrix (4, 4) is taken in the angles nearest to those of the pose it is at.
+
         Raises:
             Error: as :meth:`Follower.step`.
         """
-        return JointStep._make(self._native.step(_vector(pose)))
+        given = np.ascontiguousarray(pose, dtype=float)
+        if given.ndim != 1:
+            given = np.array(self._robot._pose("pose", pose, self._native.pose))
+        return JointStep._make(self._native.step(given))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import html
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -18,6 +19,8 @@ from aspecta._result import Result
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from aspecta.analysis import Aspect
+
 Array = NDArray[np.float64]
 
 #: Aspects whose regions a notebook shows with a map.
@@ -26,38 +29,45 @@ _NO_SURFACES = "the surfaces were not computed: ask for them with analysis.domai
 
 
 class Location(NamedTuple):
-    """Where a pose is, in a working mode."""
+    """Where a pose is, in a working mode.
 
-    #: The sign of det A: 1, -1, or 0 where the pose is in no aspect.
+    Attributes:
+        det_a: the sign of det A: 1, -1, or 0 where the pose is in no aspect.
+        aspect: the aspect; ``None`` if it is not known.
+        region: the basic region; ``None`` if it is not known.
+        domains: the uniqueness domains that hold the region, by number.
+        nowhere: why the pose is in no aspect; ``None`` if it is in one.
+    """
+
     det_a: int
-    #: The aspect; ``None`` if it is not known.
     aspect: int | None
-    #: The basic region; ``None`` if it is not known.
     region: int | None
-    #: The uniqueness domains that hold the region, by number.
     domains: tuple[int, ...]
-    #: Why the pose is in no aspect; ``None`` if it is in one.
     nowhere: str | None
 
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """What bounds an aspect, or cuts it into regions: curves of segments (k = 2), or surfaces of triangles (k = 3)."""
+    """What bounds an aspect, or cuts it into regions: curves of segments (k = 2), or surfaces of triangles (k = 3).
 
-    #: ``"boundary"`` or ``"characteristic"`` (Def. 9).
+    Attributes:
+        name: ``"boundary"`` or ``"characteristic"`` (Def. 9).
+        vertices: (n, k): poses, the k coordinates that vary. Where an angle closes up on itself, triangles across its
+            ends have copies of vertices a full turn further.
+        simplices: (m, k): the vertices of each segment or triangle.
+        faces: the names of the faces, such as ``"det A = 0"``.
+        face: (m,): which of ``faces`` each simplex is, or comes from.
+        q: (n, dof): joint vectors.
+        source: (n, k): of a characteristic surface, the pose on the boundary with the same joint vector; ``None`` of
+            a boundary.
+    """
+
     name: str
-    #: (n, k): poses, the k coordinates that vary. Where an angle closes up on itself, triangles across its ends have copies of
-    #: vertices a full turn further.
     vertices: Array
-    #: (m, k): the vertices of each segment or triangle.
     simplices: NDArray[np.uint32]
-    #: The names of the faces, such as ``"det A = 0"``.
     faces: list[str]
-    #: (m,): which of ``faces`` each simplex is, or comes from.
     face: NDArray[np.uint8]
-    #: (n, dof): joint vectors.
     q: Array
-    #: (n, k): of a characteristic surface, the pose on the boundary with the same joint vector; ``None`` of a boundary.
     source: Array | None
 
     def to_trimesh(self) -> Any:
@@ -75,34 +85,49 @@ class Surface:
 
 @dataclass(frozen=True, eq=False)
 class Regions:
-    """The basic regions of an aspect on a grid."""
+    """The basic regions of an aspect on a grid.
 
-    #: The names of the k coordinates that vary.
+    Attributes:
+        coordinates: the names of the k coordinates that vary.
+        edges: (c_j + 1,) for each of them: the ends of the cells.
+        labels: (c_1, …, c_k): the region of each cell, from 1; 0 outside the aspect, -1 where it is too thin to tell.
+    """
+
     coordinates: list[str]
-    #: (c_j + 1,) for each of them: the ends of the cells.
     edges: list[Array]
-    #: (c_1, …, c_k): the region of each cell, from 1; 0 outside the aspect, -1 where it is too thin to tell.
     labels: NDArray[np.int64]
 
 
 class Domains(Result):
-    """The basic regions and uniqueness domains of one aspect. Numerical, true to a cell of the grid."""
+    """The basic regions and uniqueness domains of one aspect. Numerical, true to a cell of the grid.
+
+    Attributes:
+        aspect: the aspect.
+        regions: the basic regions, the largest first.
+        uniqueness: the uniqueness domains: each a list of regions in which a joint vector means one pose.
+        complete: whether nothing about it is unresolved.
+        cell: the width of a cell, per coordinate that varies.
+    """
 
     __slots__ = ("_map",)
 
     _map: _native.Map | None
-    #: The aspect.
     aspect: int
-    #: The basic regions, the largest first.
     regions: list[dict[str, Any]]
-    #: The uniqueness domains: each a list of regions in which a joint vector means one pose.
     uniqueness: list[dict[str, Any]]
-    #: Whether nothing about it is unresolved.
     complete: bool
+    cell: list[float]
 
     def __init__(self, data: str | dict[str, Any], text: str = "", native: _native.Map | None = None) -> None:
         super().__init__(data, text)
         self._map = native
+
+    def __copy__(self) -> Domains:
+        return Domains(self._data, self._text, self._map)
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Domains:
+        # The grid never changes: copies share it.
+        return Domains(copy.deepcopy(self._data, memo), self._text, self._map)
 
     def _mapped(self) -> _native.Map:
         if self._map is None:
@@ -149,9 +174,6 @@ class Domains(Result):
         )
         return boundary, characteristic
 
-    #: The width of a cell, per coordinate that varies.
-    cell: list[float]
-
     def plot(self, ax: Axes | None = None, *, at: Mapping[str, float] | None = None, domain: int | None = None) -> Axes:
         """Draw the regions in the workspace, a colour each; ``at`` names the coordinate to cut at where three vary.
 
@@ -159,7 +181,9 @@ class Domains(Result):
         """
         from aspecta._plot import regions
 
-        return regions(self, ax, at or {}, domain)
+        grid = self.grid
+        bounds = {name: (edges[0], edges[-1]) for name, edges in zip(grid.coordinates, grid.edges, strict=True)}
+        return regions(self, ax, _input.cut(at, bounds, {}), _input.whole("domain", domain, 1))
 
 
 class Map:
@@ -175,12 +199,16 @@ class Map:
         """Return the map in a file, as :meth:`save` or ``aspecta domains --save`` writes it.
 
         Raises:
-            Error: the file is no map, or another version's. Its content is checked, never run.
+            Error: there is no such file, or it is no map, or another version's. Its content is checked, never run.
         """
         return cls(_native.Map.load(fspath(path)))
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write the map into a file, which is there only when it is complete; ``docs/map-file.md`` describes it."""
+        """Write the map into a file, which is there only when it is complete; ``docs/map-file.md`` describes it.
+
+        Raises:
+            Error: it cannot be written there.
+        """
         _native.write(fspath(path), self._native.to_bytes())
 
     @property
@@ -193,21 +221,22 @@ class Map:
         """The numbers of the aspects that are cut into regions."""
         return self._native.aspects
 
-    def domains(self, aspect: int) -> Domains:
-        """Return the regions and uniqueness domains of an aspect.
+    def domains(self, aspect: int | Aspect) -> Domains:
+        """Return the regions and uniqueness domains of an aspect, which may be given by its number.
 
         Raises:
             KeyError: that aspect is not cut into regions here.
         """
-        found = self._native.domains(aspect)
+        number = _input.aspect(aspect)
+        found = self._native.domains(number) if number in self.aspects else None
         if found is None:
-            raise KeyError(f"aspect {aspect} is not in this map, which has {self.aspects}")
+            raise KeyError(f"aspect {number} is not in this map, which has {self.aspects}")
         return Domains(*found, self._native)
 
     def draw(
         self,
         directory: str | PathLike[str],
-        aspects: Sequence[int] | int | None = None,
+        aspects: Sequence[int | Aspect] | NDArray[np.integer[Any]] | int | Aspect | None = None,
         *,
         meshes: Sequence[Literal["ply", "glb", "vtp"]] = ("ply", "glb"),
         hold: int = 3,
@@ -218,15 +247,16 @@ class Map:
         ``hold`` is the joint, from 1, that is held in pictures of a joint space of three.
 
         Raises:
-            Error: surfaces were not asked for: ``analysis.domains(…, surfaces=True)``.
+            Error: surfaces were not asked for: ``analysis.domains(…, surfaces=True)``; or files cannot be written there.
         """
-        wanted = self.aspects if aspects is None else [aspects] if isinstance(aspects, int) else list(aspects)
+        chosen = _input.aspects(aspects)
+        wanted = self.aspects if chosen is None else chosen
         for aspect in wanted:
             self.domains(aspect)
-        _input.whole("hold", hold, 1, 3)
+        held = (_input.whole("hold", hold, 1, 3) or 1) - 1
         written: list[Path] = []
         for aspect in wanted:
-            paths = self._native.draw(aspect, fspath(directory), list(meshes), hold - 1)
+            paths = self._native.draw(aspect, fspath(directory), list(meshes), held)
             if paths is None:
                 raise _native.Error(_NO_SURFACES)
             written += map(Path, paths)

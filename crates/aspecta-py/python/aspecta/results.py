@@ -1,42 +1,40 @@
-"""Answers about configurations, paths, motions and sets of poses."""
+"""Answers about configurations and sets of poses."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from aspecta import _input, _native
-from aspecta._result import Result
-from aspecta._table import Frame
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+from aspecta._result import Result, undecided
+from aspecta._table import counted
 
 Array = NDArray[np.float64]
-#: Modes, poses and joint vectors along a smooth piece of a motion.
-Piece = tuple[list[str], list[list[float]], list[list[float]]]
 
 
 class State(Result):
-    """A configuration with its Jacobians, and how far it is from singularities (Definitions 3 and 4). Numerical."""
+    """A configuration with its Jacobians, and how far it is from singularities (Definitions 3 and 4). Numerical.
 
-    #: The working mode; ``None`` at a serial singularity.
+    Attributes:
+        mode: the working mode; ``None`` at a serial singularity.
+        det_a: det A.
+        b: B_jj, leg by leg.
+        singularity: the kind: ``"regular"``, ``"parallel"``, ``"serial"`` or ``"both"``.
+        parallel_measure: smallest singular value of the homogeneous A, in [0, 1].
+        serial_measures: ``|B_jj| / max |B_jj|``, leg by leg.
+        within_limits: whether joints are within their limits, and the pose in the window.
+        residual: largest ``|f_i|`` relative to the leg's lengths squared: of what belongs together, rounding alone.
+    """
+
     mode: str | None
-    #: det A.
     det_a: float
-    #: B_jj, leg by leg.
     b: list[float]
-    #: The kind: ``"regular"``, ``"parallel"``, ``"serial"`` or ``"both"``.
     singularity: str
-    #: Smallest singular value of the homogeneous A, in [0, 1].
     parallel_measure: float
-    #: ``|B_jj| / max |B_jj|``, leg by leg.
     serial_measures: list[float]
-    #: Whether joints are within their limits, and the pose in the window.
     within_limits: bool
+    residual: float
 
     def __str__(self) -> str:
         d = self._data
@@ -60,172 +58,23 @@ class State(Result):
         return np.array(self._data["a"])
 
 
-class PathCheck(Result):
-    """Whether a path meets a singularity, leaves limits, or comes too near (certified where ``True`` or ``False``)."""
+class AssemblyModes(Result):
+    """The direct solutions of a joint vector, by aspect.
 
-    #: Whether the path meets no singularity; ``None`` if undecided.
-    singularity_free: bool | None
-    #: Whether it keeps joint limits and the window; ``None`` if undecided.
-    within_limits: bool | None
-    #: Whether it keeps the margins asked for; ``None`` if undecided.
-    keeps_margins: bool | None
-    #: Where the first demand fails, if one does.
-    obstacle: dict[str, Any] | None
-    #: The working mode.
-    mode: str
-    #: Samples with their determinants (figure 11).
-    profile: list[dict[str, Any]]
-
-    @property
-    def sound(self) -> bool:
-        """Whether all that was asked for is proved."""
-        return self.singularity_free is True and self.within_limits is True and self.keeps_margins is True
-
-    @property
-    def pieces(self) -> list[Piece]:
-        """The path as :meth:`time` drives it: from rest to rest on each straight segment, or all of a spline."""
-        groups: dict[int, list[dict[str, Any]]] = {}
-        for point in self.profile:
-            key = 0 if self._data.get("joined") == "spline" else point["segment"]
-            groups.setdefault(key, []).append(point)
-        return [([p["mode"] for p in g], [p["pose"] for p in g], [p["q"] for p in g]) for g in groups.values()]
-
-    def time(
-        self, speed: float | Sequence[float], acceleration: float | Sequence[float], *, rate: float = 100.0
-    ) -> Motion:
-        """Return the fastest motion through the path under joint limits; see :class:`Motion`.
-
-        Raises:
-            Error: the path is not proved to be sound, or a limit is not positive.
-        """
-        if not self.sound:
-            raise _native.Error("the path is not proved to be sound: print the check to see why")
-        return timed(self.pieces, speed, acceleration, rate)
-
-    def plot(self, ax: Axes | None = None) -> Axes:
-        """Draw det A and the B_jj along the path, each divided by its largest modulus (figure 11)."""
-        from aspecta._plot import profile
-
-        return profile(self, ax)
-
-
-class Motion(Result, Frame):
-    """A motion in time: the fastest through a path under limits of joint speed and acceleration. Numerical."""
-
-    #: Seconds from start to end.
-    total_time: float
-    #: How far each joint strays from the path between its samples, an estimate.
-    path_error: list[float]
-    #: Which limits bind, and for which share of the time.
-    bindings: list[dict[str, Any]]
-
-    def _column(self, name: str) -> Array:
-        return np.array([row[name] for row in self._data["rows"]])
-
-    @property
-    def time(self) -> Array:
-        """(n,): seconds from the start."""
-        return self._column("time")
-
-    @property
-    def pose(self) -> Array:
-        """(n, dof): X."""
-        return self._column("pose")
-
-    @property
-    def q(self) -> Array:
-        """(n, dof): q."""
-        return self._column("q")
-
-    @property
-    def velocity(self) -> Array:
-        """(n, dof): dq/dt, a second."""
-        return self._column("velocity")
-
-    @property
-    def acceleration(self) -> Array:
-        """(n, dof): d²q/dt², a second squared; it may jump."""
-        return self._column("acceleration")
-
-    def __str__(self) -> str:
-        return f"a motion of {self.total_time:.6g} s in {len(self._data['rows'])} rows"
-
-    __repr__ = __str__
-
-    def _columns(self) -> dict[str, Any]:
-        """A row a sample."""
-        dof = self.pose.shape[1]
-        parts = (("x", self.pose), ("q", self.q), ("v", self.velocity), ("a", self.acceleration))
-        columns = {f"{name}{k + 1}": values[:, k] for name, values in parts for k in range(dof)}
-        return {"time": self.time, **columns}
-
-
-def timed(
-    pieces: list[Piece], speed: float | Sequence[float], acceleration: float | Sequence[float], rate: float
-) -> Motion:
-    """Return the fastest motion through some pieces."""
-    dof = len(pieces[0][2][0]) if pieces and pieces[0][2] else 1
-
-    def each(limit: float | Sequence[float]) -> list[float]:
-        return _input.vector(limit) if np.ndim(limit) else [float(limit)] * dof  # type: ignore[arg-type]
-
-    return Motion(_native.trajectory(pieces, each(speed), each(acceleration), float(rate)))
-
-
-class Plan(Result):
-    """A motion between two configurations, proved free of singularities and within limits.
-
-    Within a working mode it is one stretch of straight segments; through changes of mode there are several, with
-    crossings of serial singularities between them.
+    Attributes:
+        complete: whether the solutions are proved to be all.
+        solutions: each with ``number``, ``aspect`` and the solution's parts.
+        shared: which solutions lie in one aspect, and whether that is certified.
     """
 
-    __slots__ = ("pieces",)
-
-    #: The motions within one mode: ``mode``, ``det_a``, ``aspect``, ``waypoints``, ``length``, ``margins``.
-    stretches: list[dict[str, Any]]
-    #: The changes of mode between them.
-    crossings: list[dict[str, Any]]
-    #: Whether it was proved once more after it was planned.
-    proved: bool
-    #: The motion as :meth:`time` drives it.
-    pieces: list[Piece]
-
-    def __init__(self, data: str | dict[str, Any], text: str = "", pieces: list[Piece] | None = None) -> None:
-        super().__init__(data, text)
-        self.pieces = pieces or []
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), (self._data, self._text, self.pieces)
-
-    @property
-    def waypoints(self) -> Array:
-        """(n, dof): the poses it goes through; angles go on past ±π."""
-        return np.array([pose for stretch in self.stretches for pose in stretch["waypoints"]])
-
-    @property
-    def length(self) -> float:
-        """Its length: translations, and angles times the robot's characteristic length."""
-        return float(sum(stretch["length"] for stretch in self.stretches))
-
-    def time(
-        self, speed: float | Sequence[float], acceleration: float | Sequence[float], *, rate: float = 100.0
-    ) -> Motion:
-        """Return the fastest motion through the plan under joint limits; see :class:`Motion`."""
-        return timed(self.pieces, speed, acceleration, rate)
-
-
-class AssemblyModes(Result):
-    """The direct solutions of a joint vector, by aspect."""
-
-    #: Whether the solutions are proved to be all.
     complete: bool
-    #: Each with ``number``, ``aspect`` and the solution's parts.
     solutions: list[dict[str, Any]]
-    #: Which solutions lie in one aspect, and whether that is certified.
     shared: list[dict[str, Any]]
 
     def __str__(self) -> str:
-        lines = [f"{len(self.solutions)} direct solutions{', all of them' if self.complete else ', perhaps not all'}"]
+        lines = [
+            f"{counted(len(self.solutions), 'direct solution')}{', all of them' if self.complete else ', perhaps not all'}"
+        ]
         for s in self.solutions:
             pose = ", ".join(f"{x:.6g}" for x in s["pose"])
             lines.append(f"  {s['number']}  {s['mode']}  aspect {s['aspect'] or 'unknown'}  ({pose})")
@@ -239,17 +88,23 @@ class AssemblyModes(Result):
 
 
 class JoinedSolutions(Result):
-    """The direct solutions of a joint vector of a free body, and which of them proved motions join."""
+    """The direct solutions of a joint vector of a free body, and which of them proved motions join.
 
-    #: Whether the solutions are proved to be all.
+    Attributes:
+        complete: whether the solutions are proved to be all.
+        solutions: each with ``number`` and the solution's parts.
+        classes: class by class: ``mode``, ``det_a``, and ``joined``, groups of solutions that lie in one aspect
+            (certified).
+    """
+
     complete: bool
-    #: Each with ``number`` and the solution's parts.
     solutions: list[dict[str, Any]]
-    #: Class by class: ``mode``, ``det_a``, and ``joined``, groups of solutions that lie in one aspect (certified).
     classes: list[dict[str, Any]]
 
     def __str__(self) -> str:
-        lines = [f"{len(self.solutions)} direct solutions{', all of them' if self.complete else ', perhaps not all'}"]
+        lines = [
+            f"{counted(len(self.solutions), 'direct solution')}{', all of them' if self.complete else ', perhaps not all'}"
+        ]
         for c in self.classes:
             groups = "; ".join(", ".join(map(str, group)) for group in c["joined"])
             lines.append(f"  {c['mode']}  det A {c['det_a']}  joined by proved motions: {groups or 'none'}")
@@ -259,16 +114,21 @@ class JoinedSolutions(Result):
 
 
 class ModeGraph(Result):
-    """Which aspects are joined by legs that change their postures, each crossing proved."""
+    """Which aspects are joined by legs that change their postures, each crossing proved.
+
+    Attributes:
+        crossings: the crossings found, each proved.
+        groups: aspects that can be reached from one another.
+        aspects: the aspects.
+        searched: whether crossings were looked for everywhere; false if that was stopped.
+    """
 
     __slots__ = ("_svg",)
 
-    #: The crossings found, each proved.
     crossings: list[dict[str, Any]]
-    #: Aspects that can be reached from one another.
     groups: list[list[int]]
-    #: The aspects.
     aspects: list[dict[str, Any]]
+    searched: bool
 
     def __init__(self, data: str | dict[str, Any], text: str = "", svg: str = "") -> None:
         super().__init__(data, text)
@@ -279,7 +139,11 @@ class ModeGraph(Result):
 
     def __str__(self) -> str:
         groups = "; ".join(", ".join(map(str, group)) for group in self.groups)
-        return f"{len(self.aspects)} aspects, {len(self.crossings)} crossings, each proved; joined: {groups or 'none'}"
+        searched = "" if self.searched else " (not all were looked for: stopped)"
+        found = (
+            f"{counted(len(self.aspects), 'aspect')}, {counted(len(self.crossings), 'crossing')}, each proved{searched}"
+        )
+        return f"{found}; joined: {groups or 'none'}"
 
     __repr__ = __str__
 
@@ -288,11 +152,15 @@ class ModeGraph(Result):
 
 
 class Traversability(Result):
-    """Which aspects hold a whole set of poses (certified where it is not undecided)."""
+    """Which aspects hold a whole set of poses (certified where it is not undecided).
 
-    #: Class by class: ``mode``, ``det_a``, ``answer`` (``"whole"``, ``"not-whole"`` or ``"undecided"``), ``aspect``.
+    Attributes:
+        classes: class by class: ``mode``, ``det_a``, ``answer`` (``"whole"``, ``"not-whole"`` or ``"undecided"``),
+            ``aspect``.
+        groups: with ``through_modes``: the groups of aspects through which every pose can be reached.
+    """
+
     classes: list[dict[str, Any]]
-    #: With ``through_modes``: the groups of aspects through which every pose can be reached.
     groups: list[dict[str, Any]]
 
     @property
@@ -300,6 +168,9 @@ class Traversability(Result):
         """Whether some class holds all of the set; ``None`` if that is undecided."""
         answers = {c["answer"] for c in self.classes}
         return True if "whole" in answers else None if "undecided" in answers else False
+
+    def __bool__(self) -> bool:
+        raise undecided(self, "holds")
 
     def __str__(self) -> str:
         def line(c: dict[str, Any]) -> str:
@@ -321,8 +192,8 @@ class Cusps(Result):
     def __str__(self) -> str:
         if "curves" in self._data:
             ended = ", stopped before the end" if self.stopped else ""
-            return f"{len(self.curves)} curves of cusps, of {len(self.slices)} slices{ended}"
-        lines = [f"{len(self.cusps)} cusps{', proved to be all' if self.complete else ', perhaps not all'}"]
+            return f"{counted(len(self.curves), 'curve')} of cusps, of {counted(len(self.slices), 'slice')}{ended}"
+        lines = [f"{counted(len(self.cusps), 'cusp')}{', proved to be all' if self.complete else ', perhaps not all'}"]
         for c in self.cusps:
             pose, q = (", ".join(f"{x:.6g}" for x in c[name]) for name in ("pose", "q"))
             lines.append(f"  {c['mode']}  pose ({pose})  q ({q}){'' if c['within_limits'] else '  beyond limits'}")
@@ -332,15 +203,18 @@ class Cusps(Result):
 
 
 class Exploration(Result):
-    """What a roadmap has seen of the classes of a robot with six coordinates."""
+    """What a roadmap has seen of the classes of a robot with six coordinates.
 
-    #: Certified: so many aspects there are at least.
+    Attributes:
+        at_least: certified: so many aspects there are at least.
+        classes: class by class: ``mode``, ``det_a``, ``samples``, ``components``, ``end``.
+    """
+
     at_least: int
-    #: Class by class: ``mode``, ``det_a``, ``samples``, ``components``, ``end``.
     classes: list[dict[str, Any]]
 
     def __str__(self) -> str:
-        return f"at least {self.at_least} aspects (certified), in {len(self.classes)} classes"
+        return f"at least {counted(self.at_least, 'aspect')} (certified), in {counted(len(self.classes), 'class', 'classes')}"
 
     __repr__ = __str__
 
@@ -348,17 +222,18 @@ class Exploration(Result):
 class Verdict(Result):
     """What a certificate claims, and whether it is right."""
 
-    __slots__ = ("verified",)
-
-    #: Whether all that it claims is verified.
-    verified: bool
-
-    def __init__(self, data: str | dict[str, Any], text: str = "", verified: bool = False) -> None:
-        super().__init__(data, text)
-        self.verified = verified
+    @property
+    def verified(self) -> bool | None:
+        """Whether all that it claims is verified; ``None`` if not all was checked, and no fault found so far."""
+        return False if self.faults else True if self.complete else None
 
     def __bool__(self) -> bool:
-        return self.verified
+        return self.verified is True
 
-    def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), (self._data, self._text, self.verified)
+    def __str__(self) -> str:
+        # The summary of a whole check ends in what it found.
+        refuted = any(fault["is_wrong"] for fault in self.faults)
+        ended = "" if self.complete or refuted else "\nnot verified: not all was checked, it was stopped"
+        return f"{super().__str__()}{ended}"
+
+    __repr__ = __str__

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from typing import Any, overload
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
-from aspecta._table import Frame, to_html
+from aspecta._table import Frame, columns, counted, joint_names, to_html
+
+if TYPE_CHECKING:
+    from aspecta._description import Description
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -17,41 +20,56 @@ Mask = NDArray[np.bool_]
 
 @dataclass(slots=True, eq=False)
 class Solution:
-    """A configuration (X, q): a pose and a joint vector that belong together."""
+    """A configuration (X, q): a pose and a joint vector that belong together.
 
-    #: X, (dof,): lengths in the robot's unit, angles in rad, in (-π, π].
+    Attributes:
+        pose: X, (dof,): lengths in the robot's unit, angles in rad, in (-π, π].
+        q: q, (dof,): angles in rad, within the range of their joint, or in (-π, π] if it has none.
+        mode: the working mode: the signs of B_jj, such as ``"+-+"``.
+        det_a: det A = det ∂f/∂X.
+        residual: largest ``|f_i|`` relative to the leg's lengths squared.
+        certified: whether existence and uniqueness near here are proved by intervals.
+        within_limits: whether every joint is within its limits and the pose in the robot's window.
+        serial_legs: legs, from 1, at a serial singularity: their signs in ``mode`` mean nothing.
+    """
+
     pose: Array
-    #: q, (dof,): angles in rad, within the range of their joint, or in (-π, π] if it has none.
     q: Array
-    #: The working mode: the signs of B_jj, such as ``"+-+"``.
     mode: str
-    #: det A = det ∂f/∂X.
     det_a: float
-    #: Largest ``|f_i|`` relative to the leg's lengths squared.
     residual: float
-    #: Whether existence and uniqueness near here are proved by intervals.
     certified: bool
-    #: Whether every joint is within its limits and the pose in the robot's window.
     within_limits: bool
-    #: Legs, from 1, at a serial singularity: their signs in ``mode`` mean nothing.
     serial_legs: tuple[int, ...]
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Solution):
+            return NotImplemented
+        return all(np.array_equal(getattr(self, part.name), getattr(other, part.name)) for part in fields(self))
+
+    __hash__ = None  # type: ignore[assignment]
 
 
 #: What is said of a list of solutions.
 _PROVED = {True: ", proved to be all", False: ", perhaps not all", None: ""}
 
 
-class SolutionList(Sequence[Solution]):
-    """All solutions of one pose, or of one joint vector. It prints as a table."""
+class SolutionList(Sequence[Solution], Frame):
+    """All solutions of one pose, or of one joint vector. It prints as a table.
 
-    __slots__ = ("_solutions", "complete")
+    Attributes:
+        complete: whether direct solutions are proved to be all; ``None`` of inverse ones, of which that is not
+            proved.
+    """
 
-    #: Whether direct solutions are proved to be all; ``None`` of inverse ones, of which that is not proved.
+    __slots__ = ("_names", "_solutions", "complete")
+
     complete: bool | None
 
-    def __init__(self, solutions: Sequence[Solution], complete: bool | None = None) -> None:
+    def __init__(self, solutions: Sequence[Solution], complete: bool | None, names: Sequence[str]) -> None:
         self._solutions = tuple(solutions)
         self.complete = complete
+        self._names = names
 
     def __len__(self) -> int:
         return len(self._solutions)
@@ -65,8 +83,7 @@ class SolutionList(Sequence[Solution]):
 
     @property
     def _heading(self) -> str:
-        count = len(self)
-        return f"{count} solution{'' if count == 1 else 's'}{_PROVED[self.complete]}"
+        return f"{counted(len(self), 'solution')}{_PROVED[self.complete]}"
 
     def __str__(self) -> str:
         return "\n".join([self._heading, *map(_line, self)])
@@ -74,16 +91,31 @@ class SolutionList(Sequence[Solution]):
     __repr__ = __str__
 
     def _repr_html_(self) -> str:
-        dof = len(self[0].q) if self else 0
-        heads = ["mode", *(f"x{k + 1}" for k in range(dof)), *(f"q{k + 1}" for k in range(dof)), "det A", "limits"]
+        heads = ["mode", *self._names, *joint_names(self._names), "det A", "limits", "singularity"]
         rows = [
-            [s.mode, *map(float, s.pose), *map(float, s.q), s.det_a, "within" if s.within_limits else "beyond"]
+            [s.mode, *s.pose.tolist(), *s.q.tolist(), s.det_a, "within" if s.within_limits else "beyond", _serial(s)]
             for s in self
         ]
         return to_html(self._heading, heads, rows)
 
+    def _columns(self) -> dict[str, Any]:
+        """A solution a row."""
+        dof = len(self._names)
+        return {
+            "mode": [s.mode for s in self],
+            **columns(self._names, np.reshape([s.pose for s in self], (-1, dof))),
+            **columns(joint_names(self._names), np.reshape([s.q for s in self], (-1, dof))),
+            **{name: [getattr(s, name) for s in self] for name in ("det_a", "certified", "within_limits")},
+        }
+
     def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), (self._solutions, self.complete)
+        return type(self), (self._solutions, self.complete, self._names)
+
+
+def _serial(solution: Solution) -> str:
+    """Which legs are at a serial singularity, in words."""
+    legs = solution.serial_legs
+    return f"serial: leg{'s' if len(legs) > 1 else ''} {', '.join(map(str, legs))}" if legs else ""
 
 
 def _line(solution: Solution) -> str:
@@ -92,9 +124,10 @@ def _line(solution: Solution) -> str:
     def numbers(values: Array) -> str:
         return " ".join(f"{x:11.6g}" for x in values)
 
-    limits = "" if solution.within_limits else "  beyond limits"
+    told = ["" if solution.within_limits else "beyond limits", _serial(solution)]
     return (
-        f"  {solution.mode}  pose {numbers(solution.pose)}  q {numbers(solution.q)}  det A {solution.det_a:.4g}{limits}"
+        f"  {solution.mode}  pose {numbers(solution.pose)}  q {numbers(solution.q)}  det A {solution.det_a:.4g}"
+        f"{''.join(f'  {part}' for part in told if part)}"
     )
 
 
@@ -102,9 +135,23 @@ class Solutions(Sequence[SolutionList], Frame):
     """The solutions of many rows as arrays, one solution a line, in the order of the rows asked about.
 
     ``batch[i]`` are the solutions of row i; ``batch.q``, ``batch.pose`` … hold those of all rows, ``batch.row`` tells whose.
+
+    Attributes:
+        row: (k,): the row, from 0, of which this is a solution.
+        pose: (k, dof): X.
+        q: (k, dof): q.
+        signs: (k, dof): signs of the working mode, leg by leg: -1 or 1.
+        det_a: (k,): det A.
+        residual: (k,): largest ``|f_i|`` relative to the leg's lengths squared.
+        certified: (k,): whether existence and uniqueness are proved.
+        within_limits: (k,): whether joints are within their limits and the pose in the window.
+        serial: (k, dof): whether a leg is at a serial singularity.
+        complete: (n,): of each row, whether its direct solutions are proved to be all; ``None`` of inverse solutions.
+        rows: n, the rows asked about.
     """
 
     __slots__ = (
+        "_robot",
         "_starts",
         "certified",
         "complete",
@@ -119,32 +166,24 @@ class Solutions(Sequence[SolutionList], Frame):
         "within_limits",
     )
 
-    #: (k,): the row, from 0, of which this is a solution.
     row: NDArray[np.int64]
-    #: (k, dof): X.
     pose: Array
-    #: (k, dof): q.
     q: Array
-    #: (k, dof): signs of the working mode, leg by leg: -1 or 1.
     signs: NDArray[np.int8]
-    #: (k,): det A.
     det_a: Array
-    #: (k,): largest ``|f_i|`` relative to the leg's lengths squared.
     residual: Array
-    #: (k,): whether existence and uniqueness are proved.
     certified: Mask
-    #: (k,): whether joints are within their limits and the pose in the window.
     within_limits: Mask
-    #: (k, dof): whether a leg is at a serial singularity.
     serial: Mask
-    #: (n,): of each row, whether its direct solutions are proved to be all; ``None`` of inverse solutions.
     complete: Mask | None
-    #: n, the rows asked about.
     rows: int
 
-    def __init__(self, arrays: dict[str, Any]) -> None:
+    _robot: Description
+
+    def __init__(self, arrays: dict[str, Any], robot: Description) -> None:
         for name, array in arrays.items():
             setattr(self, name, array)
+        self._robot = robot
         self._starts = np.searchsorted(self.row, np.arange(self.rows + 1))
 
     def __len__(self) -> int:
@@ -174,7 +213,8 @@ class Solutions(Sequence[SolutionList], Frame):
             raise IndexError(f"row {index} of {len(self)}")
         index %= len(self)
         found = [self._solution(k) for k in range(self._starts[index], self._starts[index + 1])]
-        return SolutionList(found, None if self.complete is None else bool(self.complete[index]))
+        complete = None if self.complete is None else bool(self.complete[index])
+        return SolutionList(found, complete, self._robot.pose_names)
 
     def _solution(self, k: int) -> Solution:
         return Solution(
@@ -194,28 +234,41 @@ class Solutions(Sequence[SolutionList], Frame):
     def only(self, kept: Mask) -> Solutions:
         """Return the solutions that a mask (k,) keeps. Rows stay as they are, some with fewer solutions."""
         arrays = {
-            name: getattr(self, name)[kept] for name in self.__slots__ if name not in ("_starts", "complete", "rows")
+            name: array if name in ("complete", "rows") else array[kept] for name, array in self._arrays().items()
         }
-        return Solutions({**arrays, "complete": self.complete, "rows": self.rows})
+        return Solutions(arrays, self._robot)
 
     def in_mode(self, mode: str) -> Solutions:
-        """Return the solutions in one working mode, such as ``"+-+"``."""
-        wanted = np.array([1 if sign == "+" else -1 for sign in mode], dtype=np.int8)
+        """Return the solutions in one working mode, such as ``"+-+"``, or the names of its postures.
+
+        Raises:
+            Error: the robot has no such mode.
+        """
+        wanted = np.array([1 if sign == "+" else -1 for sign in self._robot._known(mode)], dtype=np.int8)
         return self.only((self.signs == wanted).all(axis=1))
 
     def _columns(self) -> dict[str, Any]:
         """A solution a line."""
-        dof = self.pose.shape[1]
-        columns: dict[str, Any] = {"row": self.row, "mode": self.modes}
-        columns |= {f"x{k + 1}": self.pose[:, k] for k in range(dof)}
-        columns |= {f"q{k + 1}": self.q[:, k] for k in range(dof)}
-        return columns | {"det_a": self.det_a, "certified": self.certified, "within_limits": self.within_limits}
+        robot = self._robot
+        return {
+            "row": self.row,
+            "mode": self.modes,
+            **columns(robot.pose_names, self.pose),
+            **columns(robot.joint_names, self.q),
+            "det_a": self.det_a,
+            "certified": self.certified,
+            "within_limits": self.within_limits,
+        }
 
     def __str__(self) -> str:
         proved = "" if self.complete is None else f", proved to be all in {int(self.complete.sum())}"
-        return f"{len(self.row)} solutions of {len(self)} rows{proved}"
+        return f"{counted(len(self.row), 'solution')} of {counted(len(self), 'row')}{proved}"
 
     __repr__ = __str__
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), ({name: getattr(self, name) for name in self.__slots__ if name != "_starts"},)
+        return type(self), (self._arrays(), self._robot)
+
+    def _arrays(self) -> dict[str, Any]:
+        """What holds the solutions, by name."""
+        return {name: getattr(self, name) for name in self.__slots__ if not name.startswith("_")}
