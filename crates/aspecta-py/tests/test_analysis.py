@@ -86,7 +86,7 @@ def test_a_notebook_shows_tables_and_pictures(analysis: aspecta.Analysis) -> Non
     assert "<svg" in line._repr_html_()
     solutions = analysis.robot.ik([4, 7])._repr_html_()
     assert solutions.count("<tr>") == 5 and "156.702" in solutions
-    assert analysis._repr_html_() is not None and analysis._picture is not None
+    assert analysis._picture and analysis._picture in shown  # drawn once
     assert "0 solutions" in analysis.robot.ik([40, 7])._repr_html_()
 
 
@@ -244,6 +244,7 @@ def test_pictures_and_reports(analysis: aspecta.Analysis, tmp_path: Path) -> Non
     assert body.plot(at={"phi": 0.1}).get_ylabel() == "y [unit]"
     assert aspecta.Robot("3-rrr").analyze(fix={"phi": 0, "y": 0}, depth=8).plot().get_xlabel() == "x [unit]"
     for wrong, why in (
+        (0.1, "at = 0.1: give"),
         ({"z": 0}, "`z` does not vary"),
         ({"phi": 99}, "lies outside"),
         ({"phi": np.nan}, "give a number"),
@@ -316,8 +317,12 @@ def test_a_time_is_for_all_steps_together(monkeypatch: pytest.MonkeyPatch) -> No
 
     monkeypatch.setattr(aspecta.Robot, "analyze", told)
     robot = aspecta.Robot("3-rrr")
+    ends = [-15.468, 0.781, 0.073], [-9.902, -7.091, 1.081]
+    with pytest.raises(aspecta.NoPlan, match=r"stopped after 0\.001 s"):
+        robot.plan(*ends, mode="+++", to_mode="++-", seconds=0.001)
+    given.clear()
     with pytest.raises(aspecta.NoPlan):
-        robot.plan([-15.468, 0.781, 0.073], [-9.902, -7.091, 1.081], mode="+++", to_mode="++-", seconds=2)
+        robot.plan(*ends, mode="+++", to_mode="++-", seconds=2)
     assert given[0] < 2 and given == sorted(set(given), reverse=True)
     robot.assembly(robot.ik([-15.468, 0.781, 0.073])[0].q, seconds=1, depth=4)
     assert given[-1] < 1

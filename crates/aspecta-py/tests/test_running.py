@@ -96,7 +96,8 @@ def test_ctrl_c_tells_whether_there_is_something(work: str, kept: str) -> None:
 import _thread, threading, aspecta
 robot = aspecta.Robot("3-rrr")
 found = robot.analyze(depth=5)
-threading.Timer(0.3, _thread.interrupt_main).start()
+aspecta.set_threads(1)
+threading.Timer(0.1, _thread.interrupt_main).start()
 try:
     {work}
 except KeyboardInterrupt as interrupt:

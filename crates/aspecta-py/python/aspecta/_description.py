@@ -179,7 +179,7 @@ class Description:
         """The signs of modes, of which one or several may be given, each once; none mean all."""
         if not isinstance(modes, str | Iterable | None):
             raise _native.Error(f"modes = {modes!r}: give working modes as texts, such as {self.modes[:2]}")
-        wanted = [modes] if isinstance(modes, str) else modes or ()
+        wanted = [modes] if isinstance(modes, str) else () if modes is None else modes
         return list(dict.fromkeys(map(self._known, wanted)))
 
     def _poses(self, pose: ArrayLike | None, xyzw: ArrayLike | None = None, wxyz: ArrayLike | None = None) -> Array:
@@ -205,10 +205,9 @@ class Description:
         given = _input.numbers(name, pose)
         if not _are_matrices(given):
             return _input.one(name, given, self._coordinates, self.name)
-        rows = np.atleast_2d(self._poses(given))
-        if len(rows) != 1 or given.ndim != 2:
+        if given.ndim != 2:
             raise _native.Error(f"{name} of shape {given.shape}: give one matrix (4, 4) alone")
-        return poses.nearest(self.platform, rows, before)[0].tolist()  # type: ignore[no-any-return]
+        return poses.nearest(self.platform, self._poses(given[None]), before)[0].tolist()  # type: ignore[no-any-return]
 
     def _joints(self, name: str, q: ArrayLike) -> list[float]:
         """One joint vector."""

@@ -6,7 +6,7 @@ import math
 import operator
 import re
 import warnings
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -117,19 +117,24 @@ def fitting(values: ArrayLike, coordinates: Names, robot: str) -> Array:
 def held(fix: Any, coordinates: Names) -> list[tuple[int, float]]:
     """Return coordinates that are held, by index, and their values."""
     names, angles = coordinates
-    try:
-        pairs = dict(fix or {})
-    except (TypeError, ValueError):
-        raise Error(f"fix = {fix!r}: give values by name, such as {{{names[-1]!r}: 0.5}}") from None
     found = []
-    for name, value in pairs.items():
+    for name, value in _by_name("fix", fix, names).items():
         if name not in names:
             raise Error(f"fix: `{name}` is none of {', '.join(names)}")
         k = names.index(name)
-        found.append((k, number(f"fix: {name}", value)))
+        found.append((k, value))
         if k in angles:
-            _warn_of_degrees(name, found[-1][1])
+            _warn_of_degrees(name, value)
     return found
+
+
+def _by_name(kind: str, values: Any, names: Sequence[str]) -> dict[str, float]:
+    """Numbers by the names of their coordinates, given as anything that makes a dictionary."""
+    try:
+        pairs = dict(() if values is None else values)
+    except (TypeError, ValueError):
+        raise Error(f"{kind} = {values!r}: give values by name, such as {{{names[-1]!r}: 0.5}}") from None
+    return {name: number(f"{kind}: {name}", value) for name, value in pairs.items()}
 
 
 def margins(avoid: Any) -> tuple[float, float]:
@@ -153,7 +158,7 @@ def wishes(weight: Any, avoid: Any) -> tuple[float, float, float]:
 
 def cut(at: Any, bounds: Mapping[str, tuple[float, float]], held: Mapping[str, float]) -> dict[str, float]:
     """Return where to cut, by coordinate: within the bounds of those that vary; of those that are held, where they are."""
-    found = {name: number(f"at: {name}", value) for name, value in dict(at or {}).items()}
+    found = _by_name("at", at, list(bounds))
     for name, value in found.items():
         if name in held and held[name] != value:
             raise Error(f"at: {name} = {value:g}: it is held at {held[name]:g} here")

@@ -58,7 +58,7 @@ def _several(paths: Any) -> list[Any]:
     if not some:
         raise _native.Error("paths: give at least one")
     first = _input.numbers("paths", some[0])
-    return [paths] if first.ndim == 1 or (first.ndim == 2 and first.shape == (4, 4)) else some
+    return [paths] if first.ndim == 1 or first.shape == (4, 4) else some
 
 
 def _rows(robot: Description, name: str, poses: Any, least: int) -> list[list[float]]:

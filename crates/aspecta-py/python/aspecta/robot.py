@@ -231,6 +231,8 @@ class Robot(Kinematics):
                     progress=progress,
                 )
             except _native.NoPlan as refusal:
+                if left.is_over and not refusal.proved:
+                    refusal.args = (f"{refusal}; it was stopped after {seconds:g} s",)
                 if depth is not None or finer == _FINER or not refusal.finer or left.is_over:
                     raise
         raise AssertionError("the last round returns or raises")
