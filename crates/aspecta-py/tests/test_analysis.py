@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import aspecta
+from aspecta._pose_sets import pose_set
 from conftest import answer, command
 
 matplotlib = pytest.importorskip("matplotlib")
@@ -289,6 +290,13 @@ def test_coordinates_are_held_by_any_mapping(five_bar: aspecta.Robot) -> None:
     for fix in (3, {"x": "4"}, {"x": None}):
         with pytest.raises(aspecta.Error, match=r"fix.* = .*: give"):
             five_bar.analyze(fix=fix)  # type: ignore[arg-type]
+
+
+def test_separate_poses_are_no_path() -> None:
+    robot = aspecta.Robot("spherical-3-rrr")
+    matrices = robot.matrix([[0.1, 0.1, 3.1], [0.1, 0.1, 3.2]])
+    (poses,), (path,) = (pose_set(robot, {kind: matrices}, None).lists for kind in ("poses", "paths"))
+    assert np.isclose(path[1][2], 3.2) and np.isclose(poses[1][2], 3.2 - 2 * np.pi)
 
 
 def test_one_pose_is_one(analysis: aspecta.Analysis, five_bar: aspecta.Robot) -> None:

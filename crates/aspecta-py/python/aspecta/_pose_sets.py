@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import numpy as np
+
 from aspecta import _input, _native
 from aspecta._table import counted
 
@@ -38,9 +40,9 @@ def pose_set(robot: Description, given: dict[str, Any], radius: float | None) ->
     if (kind in _CENTRES) != (radius is not None):
         raise _native.Error("radius is that of a disc or of a ball: give both, or neither")
     if kind == "poses":
-        return PoseSet(kind, [], [], 0.0, [_rows(robot, kind, value, 1)])
+        return PoseSet(kind, [], [], 0.0, [_enough(kind, _separate(robot, value), 1)])
     if kind == "paths":
-        return PoseSet(kind, [], [], 0.0, [_rows(robot, kind, path, 2) for path in _several(value)])
+        return PoseSet(kind, [], [], 0.0, [_enough(kind, robot._path(kind, path), 2) for path in _several(value)])
     names = robot.pose_names
     centre = _CENTRES.get(kind, [])
     if not set(centre) <= set(names):
@@ -52,6 +54,12 @@ def pose_set(robot: Description, given: dict[str, Any], radius: float | None) ->
     return PoseSet("round" if axes else kind, ranges, axes, _input.positive("radius", radius) or 0.0, [])
 
 
+def _separate(robot: Description, poses: Any) -> list[list[float]]:
+    """The rows of poses, each by itself; there may be none."""
+    given = _input.numbers("poses", poses)
+    return np.atleast_2d(robot._poses(given)).tolist() if given.size else []
+
+
 def _several(paths: Any) -> list[Any]:
     """The paths, of which one may be given alone."""
     some = list(paths)
@@ -61,12 +69,9 @@ def _several(paths: Any) -> list[Any]:
     return [paths] if first.ndim == 1 or first.shape == (4, 4) else some
 
 
-def _rows(robot: Description, name: str, poses: Any, least: int) -> list[list[float]]:
-    """The rows of poses, so many at least."""
-    given = _input.numbers(name, poses)
-    rows = robot._path(name, given) if given.size else []
+def _enough(name: str, rows: list[list[float]], least: int) -> list[list[float]]:
+    """Rows of poses, so many at least."""
     if len(rows) < least:
-        raise _native.Error(
-            f"{name}: {counted(len(rows), 'pose')} given: give at least {least}{' to a path' if least > 1 else ''}"
-        )
+        remedy = f"give at least {least}{' to a path' if least > 1 else ''}"
+        raise _native.Error(f"{name}: {counted(len(rows), 'pose')} given: {remedy}")
     return rows
