@@ -32,7 +32,8 @@ impl Surfaces {
     /// use aspecta::{AspectId, Budget, Control, DomainOptions, Options, Robot};
     ///
     /// let robot = Robot::resolve("five-bar")?;
-    /// let options = Options { budget: Budget::depth(6), ..Options::default() };
+    /// let budget = Budget { depth: Some(6), ..Budget::default() };
+    /// let options = Options { budget, ..Options::default() };
     /// let analysis = aspecta::analyze(&robot, &options, &Control::unwatched())?;
     /// let coarse = DomainOptions { cells: 20, samples: 100 };
     /// let domains = aspecta::domains(&analysis, AspectId::new(1), &coarse, &Control::unwatched())?;

@@ -46,6 +46,8 @@ pub(crate) fn elsewhere(forms: &[Form], ends: &Ends<8>, proofs: &[Option<Proved<
     found.count
 }
 
+/// Sweeps of a singular value decomposition, which goes on for ever where numbers are not finite.
+const MOST_SWEEPS: usize = 100;
 /// Quaternions of norm one are taken for one if their product is nearer to one than this.
 const SAME: f64 = 1e-12;
 
@@ -160,7 +162,7 @@ impl Start {
         for j in 0..4 {
             (rows[(6, j)], rows[(7, j)]) = (p.get(j).conj(), p.get(j));
         }
-        let svd = rows.svd(false, true);
+        let svd = rows.try_svd(false, true, 5.0 * f64::EPSILON, MOST_SWEEPS)?;
         let least = svd.singular_values.imin();
         let v = svd.v_t?;
         let found = |k: usize| v[(least, k)].conj();
