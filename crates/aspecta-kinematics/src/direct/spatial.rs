@@ -2,7 +2,7 @@
 
 use super::certify::certify;
 use super::locked::{Locked, linearised, polish, rounds_to_zero, units};
-use super::projective::{Ends, Point, Problem, Proved, rotation};
+use super::projective::{Ends, Point, Problem, Proved, is_nearly_real, rotation};
 use super::{Roots, SelfMotion, cone, free_body, turning_body};
 use crate::SINGULAR;
 use crate::placement::{Placement, roll_pitch_yaw};
@@ -54,7 +54,8 @@ fn found<const V: usize, const F: usize, const N: usize>(
     let ends = problem.solve();
     let proofs = if prove { problem.prove(&ends) } else { Vec::new() };
     let proved = |k: usize| proofs.get(k).is_some_and(|p| p.is_some_and(|p| p.is_rotation()));
-    let taken = |k: usize| proved(k) || !prove && ends[k].arrived && is_rotation(&ends[k].point);
+    let is_clear = |k: usize| ends[k].arrived && !is_nearly_real(&ends[k].point);
+    let taken = |k: usize| proved(k) || !prove && is_clear(k) && is_rotation(&ends[k].point);
     let mut roots = Roots::none();
     for k in (0..ends.len()).filter(|&k| taken(k) && ends[k].point.is_real()) {
         roots.push(pose(&ends[k].point))?;

@@ -271,6 +271,174 @@ fn near_double_solutions_are_not_lost() {
     assert_eq!(lost, 0, "worst {worst:e}");
 }
 
+/// Two solutions that are next to each other, neither of which may be taken for one that is not real: a list is complete with
+/// both, or it is not said to be complete.
+#[test]
+fn neighbours_are_not_taken_for_conjugates() {
+    let mut random = Random(9);
+    let (mut complete, mut near) = (0, 0);
+    for case in 0..4 * cases() {
+        let mut platform = random_points(&mut random);
+        let mut pose = random_pose(&mut random);
+        if case % 4 == 3 {
+            platform = platform.map(|p| [p[0], p[1], 0.0]);
+        }
+        let gap = 10f64.powf(random.within(-6.0, -3.5));
+        // The legs' lengths change next to nothing along an instantaneous screw (v, w).
+        let (v, w) = (Vector3::from(vector(&mut random)), Vector3::from(vector(&mut random)));
+        let r = rotation(&pose[3..]);
+        let base: [[f64; 3]; 6] = std::array::from_fn(|k| {
+            let arm = r * Vector3::from(platform[k]);
+            let velocity = v + w.cross(&arm);
+            let across = velocity.cross(&Vector3::from(vector(&mut random)));
+            (Vector3::from_row_slice(&pose[..3]) + arm - across).into()
+        });
+        let robot = hexapod(&base, &platform);
+        // A little along the screw, away from where the two meet.
+        let turned = rotation_by(w * gap) * r;
+        let at = Vector3::from_row_slice(&pose[..3]) + v * gap;
+        let (roll, pitch, yaw) = nalgebra::Rotation3::from_matrix_unchecked(turned).euler_angles();
+        pose = vec![at.x, at.y, at.z, roll, pitch, yaw];
+        let q = robot.inverse(&pose).unwrap()[0].q.clone();
+        let found = robot.direct_certified(&q).unwrap();
+        near += usize::from(nearest(&found, &pose) < 1e-3 * gap);
+        if found.complete {
+            complete += 1;
+            assert_eq!(found.solutions.len() % 2, 0, "case {case}, gap {gap:e}");
+            assert!(nearest(&found, &pose) < 1e-3 * gap, "case {case}, gap {gap:e}");
+        }
+    }
+    assert!(complete > 100 && near > 100, "{complete} complete, {near} found");
+}
+
+/// The rotation by a vector.
+fn rotation_by(vector: Vector3<f64>) -> Matrix3<f64> {
+    *nalgebra::Rotation3::from_scaled_axis(vector).matrix()
+}
+
+/// Lists that were said to be complete while one or both of two neighbours were missing.
+#[test]
+fn neighbours_that_were_lost() {
+    let pair = |a: [f64; 3]| [a, a];
+    let flat = |of: [[f64; 2]; 6]| of.map(|[x, y]| [x, y, 0.0]);
+    let integers = |of: [[i32; 3]; 6]| of.map(|p| p.map(f64::from));
+    let [one, two, three] = [
+        [-0.857608918253518, -0.18387449680064694, 0.018994489082462707],
+        [0.8216918210667927, 0.6180134010310303, -0.9583384749136745],
+        [0.9778189056637774, 0.21167471725010278, -0.4754842931015486],
+    ]
+    .map(pair);
+    let cases = [
+        (
+            [one[0], one[1], two[0], two[1], three[0], three[1]],
+            [
+                [-0.31782433060541737, 0.41101163853692535, -0.08017129988313254],
+                [-0.9660076586717434, 0.013022533844551987, 0.683804848498307],
+                [0.3922767793380635, 0.4264221331106892, 0.2117475949248937],
+                [-0.6351398513747899, 0.8854630936506234, -0.6967983636938078],
+                [0.6143676647630503, -0.3975471007592757, -0.11086868607369404],
+                [-0.42311665889961736, 0.9764184379550396, -0.2546423351168936],
+            ],
+            [
+                1.288638099541641,
+                0.7216503507473452,
+                1.675973923594228,
+                2.115774471008073,
+                0.8881163490899423,
+                2.5042219937499812,
+            ],
+            [
+                -0.4544622219465621,
+                0.6779307510518991,
+                -0.4800204422746858,
+                0.026253844859931125,
+                -0.5351137124045932,
+                0.6008130885979803,
+            ],
+        ),
+        (
+            integers([[1, 0, -6], [9, 9, 8], [-2, -7, -5], [4, 9, -3], [-8, 1, -1], [1, -4, 1]]),
+            integers([[4, 6, -3], [-1, 2, -4], [-4, -1, -6], [-4, -2, 2], [-2, 4, -2], [0, -5, 1]]),
+            [
+                18.16938515441418,
+                11.304998887240528,
+                17.152998108316343,
+                22.35089816697002,
+                16.883678731524252,
+                9.438017897567818,
+            ],
+            [
+                0.6705818428309495,
+                -1.6008543614556001,
+                11.833833743188945,
+                0.6381705308210621,
+                0.49249540049367735,
+                -0.2640939726268277,
+            ],
+        ),
+        (
+            integers([[9, 4, -8], [9, -4, -8], [4, -7, -5], [4, 7, -5], [-5, -6, 0], [-5, 6, 0]]),
+            integers([[-5, 5, 4], [-5, -5, 4], [5, 5, -4], [5, -5, -4], [-4, 0, -6], [-4, 0, -6]]),
+            [
+                22.678278793892748,
+                23.412866598178166,
+                13.717102589052823,
+                17.08484812459754,
+                6.439765299871145,
+                6.623682834649702,
+            ],
+            [
+                -1.7909587405630258,
+                -1.5687860022064837,
+                6.077366787687019,
+                0.18718593253085455,
+                -0.4201266520992073,
+                -0.33994446029881326,
+            ],
+        ),
+        (
+            flat([
+                [241.28, -42.54],
+                [241.28, 42.54],
+                [-83.79, 230.22],
+                [-157.48, 187.68],
+                [-157.48, -187.68],
+                [-83.79, -230.22],
+            ]),
+            flat([
+                [105.42, -79.44],
+                [105.42, 79.44],
+                [16.09, 131.02],
+                [-121.51, 51.58],
+                [-121.51, -51.58],
+                [16.09, -131.02],
+            ]),
+            [
+                224.19256820746955,
+                178.78991086305726,
+                306.08146883726533,
+                333.44387929708336,
+                306.86919804342466,
+                180.1779795231813,
+            ],
+            [
+                8.655793278838972,
+                -5.7214537472886935,
+                183.7693202514466,
+                0.4570048504235849,
+                0.7883183200718684,
+                -0.2566942202054312,
+            ],
+        ),
+    ];
+    for (k, (base, platform, q, missing)) in cases.into_iter().enumerate() {
+        let found = hexapod(&base, &platform).direct_certified(&q).unwrap();
+        let off = nearest(&found, &missing);
+        assert!(off < 1e-5, "case {k}: {off:e}, complete {}", found.complete);
+        assert!(!found.complete || found.solutions.len() % 2 == 0, "case {k}");
+    }
+}
+
 /// A spherical robot with unit vectors in the base and in the platform.
 fn spherical(random: &mut Random) -> Robot {
     let mut robot = Robot::resolve("spherical-3-rrr").unwrap();

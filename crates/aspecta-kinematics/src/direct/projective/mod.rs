@@ -21,7 +21,7 @@ pub(super) use forms::Quadrics;
 pub(super) use point::Point;
 pub(super) use prove::Proved;
 pub(super) use quaternion::{rotation, turned_product};
-pub(super) use solve::Problem;
+pub(super) use solve::{Problem, is_nearly_real};
 pub(super) use track::Ends;
 pub(super) use zeros::{Number, System, double, single, zero};
 #[cfg(test)]

@@ -77,6 +77,11 @@ impl<const V: usize> Proved<V> {
         std::array::from_fn(|k| Disc { re: self.centre.re[k], im: self.centre.im[k], rad: self.radius })
     }
 
+    /// The proof of the conjugate point, which real forms have in common too.
+    pub fn conjugate(&self) -> Self {
+        Self { centre: self.centre.conjugate(), ..*self }
+    }
+
     /// Whether the first four coordinates are proved to be a quaternion of a rotation: e · e ≠ 0.
     pub fn is_rotation(&self) -> bool {
         let x = self.coordinates();

@@ -76,23 +76,32 @@ impl<'a, const V: usize, const F: usize> Problem<'a, V, F> {
         (ends.len() == points.len()).then_some(ends)
     }
 
-    /// The proofs of the ends that are proved to be common points, each different from all the others.
+    /// The proofs of the ends that are proved to be common points, each different from all the others and, unless it has real coordinates, not
+    /// real.
     pub fn prove(&self, ends: &Ends<V>) -> Vec<Option<Proved<V>>> {
         let mut proofs: Vec<Option<Proved<V>>> = Vec::with_capacity(ends.len());
         for end in ends {
             let proof = if end.arrived { Proved::near(&self.forms, &self.target, &end.point) } else { None };
+            // A point that may be real, without being known as such, must not count as one that is not.
+            let is_known = |new: &Proved<V>| end.point.is_real() || differ(new, &new.conjugate());
+            let proof = proof.filter(is_known);
             proofs.push(proof.filter(|new| proofs.iter().flatten().all(|old| differ(old, new))));
         }
         proofs
     }
 }
 
+/// Whether a point is next to a real one, without having its coordinates.
+pub(crate) fn is_nearly_real<const V: usize>(x: &Point<V>) -> bool {
+    !x.is_real() && x.im.iter().all(|y| y.abs() <= NEARLY_REAL)
+}
+
 /// The real point next to a nearly real one, if it is there: if the method that looks for it stays.
 fn as_real<const V: usize, const F: usize>(target: &Quadrics<V, F>, x: Point<V>) -> Point<V> {
-    let off = x.im.iter().fold(0.0f64, |most, y| most.max(y.abs()));
-    if off > NEARLY_REAL {
+    if !is_nearly_real(&x) {
         return x;
     }
+    let off = x.im.iter().fold(0.0f64, |most, y| most.max(y.abs()));
     let real = polish(target, Point::real(x.re));
     if distance(&real, &x) <= 10.0 * off + SAME { real } else { x }
 }
