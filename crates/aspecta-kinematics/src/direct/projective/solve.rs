@@ -3,7 +3,7 @@
 use super::Point;
 use super::forms::{Family, Quadrics};
 use super::prove::{Enclosed, Proved, differ};
-use super::track::{End, Ends, Pace, Tracker, polish};
+use super::track::{End, Ends, Pace, Tracker, polish, settle};
 use aspecta_robot::num::Interval;
 
 /// A problem with real coefficients.
@@ -22,6 +22,8 @@ pub(crate) struct Problem<'a, const V: usize, const F: usize> {
 const SAME: f64 = 1e-9;
 /// Regular points with imaginary parts below this are tried as real ones.
 const NEARLY_REAL: f64 = 1e-6;
+/// Before they are as good as they can be, their imaginary parts may be as large as this.
+const MAY_BE_REAL: f64 = 1e-3;
 
 impl<'a, const V: usize, const F: usize> Problem<'a, V, F> {
     /// The quadrics `forms`, of the family of `start` with its common `points`.
@@ -41,14 +43,20 @@ impl<'a, const V: usize, const F: usize> Problem<'a, V, F> {
     /// The ends are different points, as far as numbers tell; real ones have real coordinates.
     pub fn solve(&self) -> Ends<V> {
         let mut tracker = Tracker::new(Family { start: self.start, target: &self.target });
-        let mut ends: Ends<V> = self.points.iter().map(|x| tracker.follow(x, Pace::QUICK)).collect();
+        let mut follow = |x: &Point<V>, pace: Pace| {
+            let end = tracker.follow(x, pace);
+            // Whether it is real must not hang on a step that is still to come.
+            let may_be_real = end.arrived && most_imaginary(&end.point) < MAY_BE_REAL;
+            if may_be_real { End { point: settle(&self.target, end.point), ..end } } else { end }
+        };
+        let mut ends: Ends<V> = self.points.iter().map(|x| follow(x, Pace::QUICK)).collect();
         for pace in [Pace::CAREFUL, Pace::PATIENT] {
             let doubtful = |i: &usize| {
                 !ends[*i].arrived || (0..ends.len()).any(|j| j != *i && coincide(&ends[*i], &ends[j]))
             };
             let again: Vec<usize> = (0..ends.len()).filter(doubtful).collect();
             for i in again {
-                ends[i] = tracker.follow(&self.points[i], pace);
+                ends[i] = follow(&self.points[i], pace);
             }
         }
         let mut found = Ends::new();
@@ -93,7 +101,11 @@ impl<'a, const V: usize, const F: usize> Problem<'a, V, F> {
 
 /// Whether a point is next to a real one, without having its coordinates.
 pub(crate) fn is_nearly_real<const V: usize>(x: &Point<V>) -> bool {
-    !x.is_real() && x.im.iter().all(|y| y.abs() <= NEARLY_REAL)
+    !x.is_real() && most_imaginary(x) <= NEARLY_REAL
+}
+
+fn most_imaginary<const V: usize>(x: &Point<V>) -> f64 {
+    x.im.iter().fold(0.0f64, |most, y| most.max(y.abs()))
 }
 
 /// The real point next to a nearly real one, if it is there: if the method that looks for it stays.
@@ -101,8 +113,8 @@ fn as_real<const V: usize, const F: usize>(target: &Quadrics<V, F>, x: Point<V>)
     if !is_nearly_real(&x) {
         return x;
     }
-    let off = x.im.iter().fold(0.0f64, |most, y| most.max(y.abs()));
-    let real = polish(target, Point::real(x.re));
+    let off = most_imaginary(&x);
+    let real = settle(target, Point::real(x.re));
     if distance(&real, &x) <= 10.0 * off + SAME { real } else { x }
 }
 

@@ -41,7 +41,7 @@ const SHORTEST: f64 = 1e-12;
 /// Corrections of one point.
 const MOST_CORRECTIONS: usize = 5;
 /// Steps that make a point as good as double precision has it, and the length of one that ends them.
-const MOST_POLISHING: usize = 10;
+const MOST_STEPS_TO_SETTLE: usize = 10;
 const SETTLED: f64 = 1e-13;
 /// A path that takes more steps is given up.
 const MOST_STEPS: usize = 2000;
@@ -164,15 +164,24 @@ impl<'a, const V: usize, const F: usize> Tracker<'a, V, F> {
     }
 }
 
-/// Newton's method, two steps at least, until the next one is lost in rounding; norm one. Next to another point the
-/// steps shrink late.
+/// Two more steps of Newton's method; norm one.
 #[inline(always)]
 pub(crate) fn polish<const V: usize, const F: usize>(system: &Quadrics<V, F>, x: Point<V>) -> Point<V> {
     let mut x = x.normalised();
-    for step in 0..MOST_POLISHING {
+    for _ in 0..2 {
         let Some((_, shift)) = newton(system, &x, &x.conjugate()) else { break };
         x.add_scaled(Complex::from(1.0), &shift);
-        if step > 0 && shift.norm() < SETTLED {
+    }
+    x.normalised()
+}
+
+/// Newton's method until the next step is lost in rounding: next to another point the steps shrink late. Norm one.
+pub(crate) fn settle<const V: usize, const F: usize>(system: &Quadrics<V, F>, x: Point<V>) -> Point<V> {
+    let mut x = x.normalised();
+    for _ in 0..MOST_STEPS_TO_SETTLE {
+        let Some((_, shift)) = newton(system, &x, &x.conjugate()) else { break };
+        x.add_scaled(Complex::from(1.0), &shift);
+        if shift.norm() < SETTLED {
             break;
         }
     }
