@@ -26,6 +26,8 @@ def test_maps_locate_and_pickle(analysis: aspecta.Analysis, tmp_path: Path) -> N
     for wrong in ({"cells": 1}, {"cells": -1}, {"samples": -1}):
         with pytest.raises(aspecta.Error, match="give a whole number"):
             analysis.domains(1, **wrong)
+    with pytest.raises(aspecta.Error, match="masked"):
+        found.locate(np.ma.array([4, 7], mask=[0, 1]), "++")
     with pytest.raises(KeyError):
         found.domains(2)
     with pytest.raises(aspecta.Error, match="no aspect 11"):
@@ -109,7 +111,9 @@ def test_surfaces_that_were_not_asked_for_are_missed(analysis: aspecta.Analysis,
 def test_regions_are_drawn(analysis: aspecta.Analysis, surfaces: aspecta.Domains) -> None:
     ax = analysis.domains(1, cells=60, samples=100).domains(1).plot(domain=1)
     assert ax.get_xlabel() == "x [unit]" and len(ax.images) == 1 and len(ax.collections) == 2
-    assert surfaces.plot(at={"phi": 0.1}).get_ylabel() == "y [unit]"
+    cut = surfaces.plot(at={"phi": 0.1})
+    assert cut.get_ylabel() == "y [unit]"
+    assert "other regions, or too thin to tell" in cut.get_legend_handles_labels()[1]
     for wrong in ({}, {"at": {"phi": 99.0}}, {"at": {"z": 0.0}}, {"at": {"phi": 0.1}, "domain": 1000}):
         with pytest.raises(aspecta.Error):
             surfaces.plot(**wrong)  # type: ignore[arg-type]

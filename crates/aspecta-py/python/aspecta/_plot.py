@@ -185,18 +185,20 @@ def regions(domains: Domains, ax: Axes | None, at: Mapping[str, float], number: 
     for region in sorted(shown)[:_NAMED]:
         solutions = domains.regions[region - 1]["solutions"]
         ax.fill([], [], color=_colour(region), alpha=0.7, label=f"region {region}: n = {solutions}")
-    if len(names) == 2 and domains._mapped().surfaces(domains.aspect) is not None:
+    if (np.isin(labels, list(shown), invert=True) & (labels != 0)).any():
+        ax.fill([], [], color=_GREY, alpha=0.7, label="other regions, or too thin to tell")
+    surfaces = domains._known_surfaces() if len(names) == 2 else None
+    if surfaces is not None:
         from matplotlib.collections import LineCollection
 
-        for surface, style in zip(domains.surfaces, ("-", "--"), strict=True):
+        for surface, style in zip(surfaces, ("-", "--"), strict=True):
             lines = surface.vertices[surface.simplices]
             ax.add_collection(LineCollection(list(lines), color="black", linestyle=style, linewidth=0.8))
     axes = domains._mapped().labels
     ax.set_xlabel(axes[names[free[0]]])
     ax.set_ylabel(axes[names[free[1]]])
     ax.set_aspect("equal" if {"x", "y", "z"}.issuperset(names[k] for k in free) else "auto")
-    if shown:
-        ax.legend(fontsize="small", loc="upper left", bbox_to_anchor=(1, 1))
+    ax.legend(fontsize="small", loc="upper left", bbox_to_anchor=(1, 1))
     return ax
 
 

@@ -3,11 +3,19 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence, Sized
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+#: What is said of a list that is proved to be all, of one that is not, and where nothing is known.
+_PROVED = {True: ", proved to be all", False: ", perhaps not all", None: ""}
+
+
+def listed(found: Sized, noun: str, complete: bool | None) -> str:
+    """Return how many there are in a list, and whether these are proved to be all."""
+    return f"{counted(len(found), noun)}{_PROVED[complete]}"
 
 
 def to_html(caption: str, heads: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:

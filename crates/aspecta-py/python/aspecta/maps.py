@@ -155,10 +155,17 @@ class Domains(Result):
         Raises:
             Error: they were not asked for: ``analysis.domains(…, surfaces=True)``.
         """
+        known = self._known_surfaces()
+        if known is None:
+            raise _native.Error(_NO_SURFACES)
+        return known
+
+    def _known_surfaces(self) -> tuple[Surface, Surface] | None:
+        """The surfaces, if they were asked for."""
         native = self._mapped()
         found = native.surfaces(self.aspect)
         if found is None:
-            raise _native.Error(_NO_SURFACES)
+            return None
         k = len(self.cell)
         boundary, characteristic = (
             Surface(
@@ -271,7 +278,7 @@ class Map:
 
         Numerical, true to a cell of the grid; where it is at a border it says so by ``None``.
         """
-        poses = np.ascontiguousarray(pose, dtype=float)
+        poses = np.ascontiguousarray(_input.numbers("pose", pose))
         found = [
             Location(det_a, aspect or None, region or None, tuple(domains), nowhere)
             for det_a, aspect, region, domains, nowhere in self._native.locate(np.atleast_2d(poses), mode)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from aspecta._result import Result, undecided
-from aspecta._table import counted
+from aspecta._table import counted, listed
 
 Array = NDArray[np.float64]
 
@@ -58,6 +58,11 @@ class State(Result):
         return np.array(self._data["a"])
 
 
+def _direct(solutions: list[dict[str, Any]], complete: bool) -> str:
+    """How many direct solutions there are, and whether these are all."""
+    return f"{counted(len(solutions), 'direct solution')}{', all of them' if complete else ', perhaps not all'}"
+
+
 class AssemblyModes(Result):
     """The direct solutions of a joint vector, by aspect.
 
@@ -72,9 +77,7 @@ class AssemblyModes(Result):
     shared: list[dict[str, Any]]
 
     def __str__(self) -> str:
-        lines = [
-            f"{counted(len(self.solutions), 'direct solution')}{', all of them' if self.complete else ', perhaps not all'}"
-        ]
+        lines = [_direct(self.solutions, self.complete)]
         for s in self.solutions:
             pose = ", ".join(f"{x:.6g}" for x in s["pose"])
             lines.append(f"  {s['number']}  {s['mode']}  aspect {s['aspect'] or 'unknown'}  ({pose})")
@@ -102,9 +105,7 @@ class JoinedSolutions(Result):
     classes: list[dict[str, Any]]
 
     def __str__(self) -> str:
-        lines = [
-            f"{counted(len(self.solutions), 'direct solution')}{', all of them' if self.complete else ', perhaps not all'}"
-        ]
+        lines = [_direct(self.solutions, self.complete)]
         for c in self.classes:
             groups = "; ".join(", ".join(map(str, group)) for group in c["joined"])
             lines.append(f"  {c['mode']}  det A {c['det_a']}  joined by proved motions: {groups or 'none'}")
@@ -193,7 +194,7 @@ class Cusps(Result):
         if "curves" in self._data:
             ended = ", stopped before the end" if self.stopped else ""
             return f"{counted(len(self.curves), 'curve')} of cusps, of {counted(len(self.slices), 'slice')}{ended}"
-        lines = [f"{counted(len(self.cusps), 'cusp')}{', proved to be all' if self.complete else ', perhaps not all'}"]
+        lines = [listed(self.cusps, "cusp", self.complete)]
         for c in self.cusps:
             pose, q = (", ".join(f"{x:.6g}" for x in c[name]) for name in ("pose", "q"))
             lines.append(f"  {c['mode']}  pose ({pose})  q ({q}){'' if c['within_limits'] else '  beyond limits'}")

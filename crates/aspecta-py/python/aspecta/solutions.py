@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from aspecta._table import Frame, columns, counted, joint_names, to_html
+from aspecta._table import Frame, columns, counted, joint_names, listed, to_html
 
 if TYPE_CHECKING:
     from aspecta._description import Description
@@ -50,10 +50,6 @@ class Solution:
     __hash__ = None  # type: ignore[assignment]
 
 
-#: What is said of a list of solutions.
-_PROVED = {True: ", proved to be all", False: ", perhaps not all", None: ""}
-
-
 class SolutionList(Sequence[Solution], Frame):
     """All solutions of one pose, or of one joint vector. It prints as a table.
 
@@ -83,7 +79,7 @@ class SolutionList(Sequence[Solution], Frame):
 
     @property
     def _heading(self) -> str:
-        return f"{counted(len(self), 'solution')}{_PROVED[self.complete]}"
+        return listed(self, "solution", self.complete)
 
     def __str__(self) -> str:
         return "\n".join([self._heading, *map(_line, self)])

@@ -241,6 +241,24 @@ fn invariance() {
     }
 }
 
+/// Struts at a pose where an instantaneous screw (v, w) changes the length of none, but for the gap.
+fn singular(
+    random: &mut Random,
+    platform: &[[f64; 3]; 6],
+    pose: &[f64],
+    gap: f64,
+) -> (Robot, [Vector3<f64>; 2]) {
+    let [v, w] = [0; 2].map(|_| Vector3::from(vector(random)));
+    let base = platform.map(|joint| {
+        let arm = rotation(&pose[3..]) * Vector3::from(joint);
+        let velocity = v + w.cross(&arm);
+        let across = velocity.cross(&Vector3::from(vector(random)));
+        let off = across + velocity * gap * random.within(-1.0, 1.0);
+        (Vector3::from_row_slice(&pose[..3]) + arm - off).into()
+    });
+    (hexapod(&base, platform), [v, w])
+}
+
 /// Next to parallel singularities, where two solutions meet.
 #[test]
 fn near_double_solutions_are_not_lost() {
@@ -250,17 +268,7 @@ fn near_double_solutions_are_not_lost() {
         let platform = random_points(&mut random);
         let pose = random_pose(&mut random);
         let gap = [1e-2, 1e-4, 1e-6, 1e-8, 0.0][case as usize % 5];
-        // An instantaneous screw (v, w) that changes no leg's length, but for the gap.
-        let (v, w) = (Vector3::from(vector(&mut random)), Vector3::from(vector(&mut random)));
-        let r = rotation(&pose[3..]);
-        let base: [[f64; 3]; 6] = std::array::from_fn(|k| {
-            let arm = r * Vector3::from(platform[k]);
-            let velocity = v + w.cross(&arm);
-            let across = velocity.cross(&Vector3::from(vector(&mut random)));
-            (Vector3::from_row_slice(&pose[..3]) + arm - across - velocity * gap * random.within(-1.0, 1.0))
-                .into()
-        });
-        let robot = hexapod(&base, &platform);
+        let (robot, _) = singular(&mut random, &platform, &pose, gap);
         let q = robot.inverse(&pose).unwrap()[0].q.clone();
         let found = robot.direct_certified(&q).unwrap();
         let off = nearest(&found, &pose);
@@ -284,18 +292,9 @@ fn neighbours_are_not_taken_for_conjugates() {
             platform = platform.map(|p| [p[0], p[1], 0.0]);
         }
         let gap = 10f64.powf(random.within(-6.0, -3.5));
-        // The legs' lengths change next to nothing along an instantaneous screw (v, w).
-        let (v, w) = (Vector3::from(vector(&mut random)), Vector3::from(vector(&mut random)));
-        let r = rotation(&pose[3..]);
-        let base: [[f64; 3]; 6] = std::array::from_fn(|k| {
-            let arm = r * Vector3::from(platform[k]);
-            let velocity = v + w.cross(&arm);
-            let across = velocity.cross(&Vector3::from(vector(&mut random)));
-            (Vector3::from_row_slice(&pose[..3]) + arm - across).into()
-        });
-        let robot = hexapod(&base, &platform);
+        let (robot, [v, w]) = singular(&mut random, &platform, &pose, 0.0);
         // A little along the screw, away from where the two meet.
-        let turned = rotation_by(w * gap) * r;
+        let turned = rotation_by(w * gap) * rotation(&pose[3..]);
         let at = Vector3::from_row_slice(&pose[..3]) + v * gap;
         let (roll, pitch, yaw) = nalgebra::Rotation3::from_matrix_unchecked(turned).euler_angles();
         pose = vec![at.x, at.y, at.z, roll, pitch, yaw];
