@@ -9,8 +9,8 @@ use super::condition::Conditioner;
 use super::minors::Minors;
 use super::placement::{Placement, determinant, minor, out_of_frame, wrench};
 use aspecta_robot::legs::{Closure, Drive};
-use aspecta_robot::num::{Pack, Scalar, Slope, each};
-use aspecta_robot::{Leg, Robot};
+use aspecta_robot::num::{Interval, Pack, Scalar, Slope, each};
+use aspecta_robot::{Leg, LegIndex, Robot};
 
 /// Every leg at one pose (or box of poses), with q eliminated; h not yet chosen.
 pub fn closures<T: Scalar, const D: usize, const N: usize>(
@@ -120,6 +120,25 @@ impl<T: Scalar, const N: usize> ModalRows<T, N> {
         rows
     }
 
+    /// The rows for modes in which legs that are one and the same are in opposite postures. With equal parts f and w their rows are
+    /// f ± h w, and of det A the factor 2h > 0 is taken out: it is 2h times the determinant with f in place of the first and ± w in
+    /// place of the second. That has the sign of det A, and need not vanish where these legs are singular.
+    pub fn parted<const D: usize>(
+        robot: &Robot,
+        twins: &[[LegIndex; 2]],
+        legs: &[LegClosure<T, D>; N],
+        mut h: [T; N],
+    ) -> Self {
+        let one = T::constant(Interval::point(1.0));
+        twins.iter().for_each(|[_, second]| h[second.index()] = one);
+        let mut rows = Self::new(robot, legs, &h);
+        for [first, second] in twins {
+            rows.swing[first.index()] = [T::zero(); N];
+            rows.fixed[second.index()] = [T::zero(); N];
+        }
+        rows
+    }
+
     /// Row j of A in posture s = `sign`, times the leg's weight.
     pub fn row(&self, j: usize, sign: i8) -> [T; N] {
         let (a, b) = (&self.fixed[j], &self.swing[j]);
@@ -197,5 +216,50 @@ impl<const N: usize, const M: usize> ModalRows<Slope<Pack, M>, N> {
         let rows: [[_; N]; N] = std::array::from_fn(|j| self.row(j, mode.sign(j)));
         let by = Conditioner::new(&rows);
         determinant(&rows.map(|row| by.row(&row))).tightened().range * by.det
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Kinematics;
+    use crate::chart::{Chart, Coordinates};
+    use crate::for_platform;
+    use aspecta_robot::catalogue;
+    use aspecta_robot::num::Random;
+
+    /// det A / 2h by the parted rows, both times the weights.
+    fn quotient<const D: usize, const N: usize>(robot: &Robot, pose: &[f64], mode: WorkingMode) -> [f64; 2] {
+        let x: [f64; N] = std::array::from_fn(|k| pose[k]);
+        let (_, legs) = Chart::Pose.at::<f64, D, N>(robot, &x, |k| x[k].sin_cos());
+        let h: [f64; N] = each!(|j| legs[j].heights()[0]);
+        let parted = ModalRows::<f64, N>::parted(robot, &robot.twins(), &legs, h).det(mode);
+        [ModalRows::<f64, N>::new(robot, &legs, &h).det(mode), 2.0 * h[0] * parted]
+    }
+
+    /// With two legs made one, in every robot that has legs of two postures.
+    #[test]
+    fn the_height_is_taken_out_of_det_a() {
+        let random = &mut Random::new(8);
+        let mut seen = 0;
+        for name in ["five-bar", "2-prr", "3-rrr", "3-prr", "delta", "spherical-3-rrr", "hexa"] {
+            let mut robot = catalogue::find(name).unwrap();
+            robot.legs[1] = robot.legs[0].clone();
+            let window = robot.slice(&[]).unwrap();
+            for _ in 0..300 {
+                let pose: Vec<f64> = window.ranges.iter().map(|range| random.within(*range)).collect();
+                for mode in robot.inverse(&pose).unwrap().into_iter().map(|found| found.mode) {
+                    if mode.sign(0) != mode.sign(1) {
+                        let [det, product] = for_platform!(robot.platform, quotient(&robot, &pose, mode));
+                        assert!(
+                            (det - product).abs() <= 1e-9 * det.abs().max(product.abs()) + 1e-12,
+                            "{name}: {det}, {product}"
+                        );
+                        seen += 1;
+                    }
+                }
+            }
+        }
+        assert!(seen > 1000, "{seen}");
     }
 }

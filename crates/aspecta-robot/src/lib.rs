@@ -24,6 +24,7 @@ mod slice;
 mod sound;
 #[doc(hidden)]
 pub mod text;
+mod twins;
 mod window;
 pub mod work;
 mod working_mode;

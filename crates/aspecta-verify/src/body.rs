@@ -7,7 +7,7 @@ mod chain;
 mod kinds;
 
 pub(super) use chain::Links;
-pub(super) use kinds::{joint, slope_per_root};
+pub(super) use kinds::{constants, joint, slope_per_root};
 
 use aspecta_robot::chart::Chart;
 use aspecta_robot::num::{Interval, Jet, Scalar};

@@ -116,12 +116,16 @@ fn settle<const D: usize>(
         let legs = place.in_mode(mode);
         let existence = legs.as_ref().map_or(Existence::Nowhere, |legs| legs.existence());
         let legs = legs.filter(|_| existence != Existence::Nowhere);
-        let det = legs.as_ref().map_or(Interval::ENTIRE, |legs| legs.determinant().range);
+        let vanishes = setting.vanishes_in(mode);
+        let det = match &legs {
+            Some(legs) if !vanishes => legs.determinant().range,
+            _ => Interval::ENTIRE,
+        };
         for class in [2 * m, 2 * m + 1] {
             let bit: ClassSet = 1 << class;
             let signed = det * Interval::point(sign_of(class));
             let inside = existence == Existence::Everywhere && signed.is_positive();
-            let outside = existence == Existence::Nowhere || signed.hi <= 0.0;
+            let outside = existence == Existence::Nowhere || vanishes || signed.hi <= 0.0;
             let wrong = |reason| Err(Unproved { class: Some(class), reason, is_wrong: true });
             match (needs.inside & bit != 0, needs.outside & bit != 0) {
                 (true, _) if outside => return wrong("claimed inside, but it is not"),

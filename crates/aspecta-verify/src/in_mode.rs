@@ -56,6 +56,8 @@ impl<'p, 'a, const D: usize> InMode<'p, 'a, D> {
         let is_near =
             |j: usize, leg: &Posture| self.place.setting.has_root(j) && leg.reach.lo <= NEAR * leg.reach.hi;
         let height = |j: usize| match self.legs.get(j) {
+            // Legs that are one and the same have one h.
+            Some(_) if self.place.setting.first_of(j) != j => ANY,
             Some(leg) if leg.loose || is_near(j, leg) => leg.reach.sqrt(),
             _ => ANY,
         };
@@ -66,11 +68,18 @@ impl<'p, 'a, const D: usize> InMode<'p, 'a, D> {
     /// The configurations whose h_j are in these ranges, if there are any.
     pub(super) fn part(&self, heights: &Heights) -> Option<Self> {
         let leg = |j: usize| {
-            if heights[j] == ANY {
+            let height = heights[self.place.setting.first_of(j)];
+            if height == ANY {
                 return Some(self.legs[j].clone());
             }
             let posture = usize::from(self.mode.sign(j) < 0);
-            Some(Rc::new(self.place.posture(j, posture, part(self.place.reach[j], heights[j])?)))
+            let leg = self.place.posture(j, posture, part(self.place.reach[j], height)?);
+            let is_replaced = self.place.setting.replaced_in(self.mode).any(|pair| pair.contains(&j));
+            Some(if is_replaced {
+                leg.with_row(self.legs[j].over.row, self.legs[j].at_middle.row)
+            } else {
+                Rc::new(leg)
+            })
         };
         let legs = (0..self.legs.len()).map(leg).collect::<Option<_>>()?;
         Some(Self::new(self.place, self.mode, legs))

@@ -60,6 +60,7 @@ mod summit;
 #[cfg(test)]
 mod tests;
 mod text;
+mod twins;
 mod verdict;
 
 pub use verdict::{Checked, Counts, Fault, Verdict};
@@ -160,7 +161,12 @@ fn check_windows(certificate: &Certificate, charts: &[&Chart], verdict: &mut Ver
     if let Some(reason) = charts::fault_of_window(certificate) {
         verdict.faults.push(Fault { is_wrong: true, ..Fault::of_sheet(0, reason) });
     }
+    let twins = twins::of(&certificate.robot);
     for (k, chart) in charts.iter().enumerate() {
+        if chart.leg().is_some_and(|leg| twins.as_flattened().contains(&leg.index())) {
+            let reason = "the chart of a leg that is one and the same as another";
+            verdict.faults.push(Fault::of_sheet(k + 1, reason.into()));
+        }
         if let Chart::Fold(fold) = chart
             && let Some(reason) = charts::fault_of_fold(&certificate.robot, &certificate.window, fold)
         {

@@ -2,6 +2,7 @@
 
 use super::body::{Body, LegState, Links, MOST, joint, slope_per_root};
 use super::in_mode::InMode;
+use super::twins;
 use arrayvec::ArrayVec;
 use aspecta_robot::AXES;
 use aspecta_robot::WorkingMode;
@@ -32,12 +33,14 @@ pub(super) struct Setting<'a> {
     /// The coordinates that vary, up to [`AXES`].
     pub axes: ArrayVec<usize, AXES>,
     pub scale: &'a Scale,
+    /// Pairs of legs that are one and the same.
+    pub twins: Vec<[usize; 2]>,
 }
 
 impl<'a> Setting<'a> {
     pub(super) fn new(robot: &'a Robot, chart: &'a Chart, window: Window, scale: &'a Scale) -> Self {
         let axes = window.axes().into_iter().collect();
-        Self { robot, chart, window, axes, scale }
+        Self { robot, chart, window, axes, scale, twins: twins::of(robot) }
     }
 
     /// Whether leg j is the chart's own, so that its q is the first coordinate.
@@ -84,6 +87,7 @@ pub(super) type Heights = [Interval; MOST];
 pub(super) const ANY: Interval = Interval { lo: 0.0, hi: f64::INFINITY };
 
 /// A leg in one posture over a box.
+#[derive(Clone)]
 pub(super) struct Posture {
     /// The range of H_j that is looked at; [1, 1] for struts.
     pub reach: Interval,
@@ -103,6 +107,13 @@ pub(super) struct Posture {
 }
 
 impl Posture {
+    /// The leg with another row of A, a function of the pose alone (module `twins`).
+    pub(super) fn with_row(&self, over: [Function; MOST], at_middle: [Interval; MOST]) -> Rc<Self> {
+        let mut leg = self.clone();
+        (leg.over.row, leg.at_middle.row) = (over, at_middle);
+        Rc::new(leg)
+    }
+
     /// The derivative of a function of the leg along an axis, q being what it is there; at fixed q if the leg is loose.
     pub(super) fn along(&self, f: &Function, axis: usize) -> Interval {
         if self.loose { f.gradient[axis] } else { f.gradient[axis] + f.gradient[OWN] * self.rate[axis] }
@@ -180,7 +191,17 @@ impl<'a, const D: usize> Place<'a, D> {
             let found = || Rc::new(self.posture(j, posture, self.reach[j]));
             self.postures[j][posture].get_or_init(found).clone()
         };
-        Some(InMode::new(self, mode, (0..mode.legs()).map(leg).collect()))
+        let mut legs: ArrayVec<Rc<Posture>, MOST> = (0..mode.legs()).map(leg).collect();
+        for [first, second] in self.setting.replaced_in(mode) {
+            let is_angle = self.setting.robot.legs[first].actuator.is_angle();
+            let over = self.over.parts(first, &self.spans[first].over, is_angle);
+            let at_middle = self.at_middle.parts(first, &self.spans[first].at_middle, is_angle);
+            let sign = Interval::point(f64::from(mode.sign(second)));
+            legs[first] = legs[first].with_row(over.fixed, at_middle.fixed);
+            legs[second] =
+                legs[second].with_row(over.swing.map(|x| x.scale(sign)), at_middle.swing.map(|x| x * sign));
+        }
+        Some(InMode::new(self, mode, legs))
     }
 
     /// A leg in one posture, where H_j is in `reach`, a part of its range.

@@ -104,7 +104,12 @@ impl<const D: usize> InMode<'_, '_, D> {
         };
         let det_alone = active.len() == 1 && constraints[0].value.lo <= least;
         self.choices_of_loose().into_iter().any(climbs_with)
-            || det_alone && !self.is_loose() && self.det_has_no_maximum(sign)
+            || det_alone && !self.is_loose() && self.is_of_rows() && self.det_has_no_maximum(sign)
+    }
+
+    /// Whether it is the determinant of the rows of A that is looked at.
+    fn is_of_rows(&self) -> bool {
+        self.place.setting.replaced_in(self.mode).next().is_none()
     }
 
     fn det_has_no_maximum(&self, sign: f64) -> bool {
@@ -166,7 +171,11 @@ impl<const D: usize> InMode<'_, '_, D> {
         let among = |most: f64| -> Vec<usize> {
             let is_small =
                 |j: usize| setting.has_root(j) && self.legs[j].reach.hi <= most * setting.scale.reach[j];
-            (0..self.legs.len()).filter(|&j| self.legs[j].loose || is_small(j)).collect()
+            let is_among = |j: usize| self.legs[j].loose || is_small(j);
+            // Those that are one and the same all or none.
+            let first = |j: usize| setting.first_of(j);
+            let firsts: Vec<usize> = (0..self.legs.len()).filter(|&j| is_among(j)).map(first).collect();
+            (0..self.legs.len()).filter(|&j| firsts.contains(&first(j))).collect()
         };
         let mut choices: Vec<Vec<usize>> = [0.0, 0.1, 0.3, 1.0].map(among).to_vec();
         choices.dedup();
@@ -179,6 +188,8 @@ impl<const D: usize> InMode<'_, '_, D> {
     ///
     /// - q_j: n_j·ẏ = 0 and q̇_j = 0;
     /// - h_j: ∇H_j·ẏ = 0. As B_jj² is H_j, up to a constant, it does not change, and ∂B_jj/∂y·ẏ + ∂B_jj/∂q_j q̇_j = 0 gives q̇_j. A strut has no H_j.
+    ///
+    /// Legs i and j that are one and the same have B_jj = ±B_ii, so that −B_ii c moves q_j by ±n_j·c; and holding h_i holds h_j.
     fn velocities(&self, loose: &[usize], held: Held) -> Option<Vec<Velocity>> {
         let along_axes = |gradient: &[Interval]| -> Direction { std::array::from_fn(|a| gradient[a]) };
         let normal = |j: usize| along_axes(&self.legs[j].over.equation.gradient);
@@ -187,15 +198,22 @@ impl<const D: usize> InMode<'_, '_, D> {
         if loose.iter().any(|&j| holds_height(j) && bend(j).contains(0.0)) {
             return None;
         }
+        let first_of = |j: usize| self.place.setting.first_of(j);
+        let firsts: Vec<usize> = loose.iter().copied().filter(|&j| first_of(j) == j).collect();
+        if held == Held::Joint && firsts.len() < loose.len() {
+            return None;
+        }
         let across = |&j: &usize| if holds_height(j) { self.place.ascent[j] } else { normal(j) };
-        let normals: Vec<Direction> = loose.iter().map(across).collect();
+        let normals: Vec<Direction> = firsts.iter().map(across).collect();
         let velocity = |(direction, own): (Direction, Option<usize>)| {
-            let own = own.map(|i| loose[i]);
+            let own = own.map(|i| firsts[i]);
             let factor = own.map_or(ONE, |j| -self.legs[j].over.slope.value);
             let along = direction.map(|x| x * factor);
-            let is_level = |j: usize| own != Some(j) && holds_height(j);
+            let is_own = |j: usize| own == Some(first_of(j));
+            let is_level = |j: usize| !is_own(j) && holds_height(j);
+            let as_first = |j: usize| f64::from(self.mode.sign(j) * self.mode.sign(first_of(j)));
             let joint = |(j, leg): (usize, &Posture)| match () {
-                () if own == Some(j) => dot(&normal(j), &direction),
+                () if is_own(j) => dot(&normal(j), &direction) * Interval::point(as_first(j)),
                 () if !loose.contains(&j) => dot(&leg.rate, &along),
                 () if is_level(j) => -(dot(&along_axes(&leg.over.slope.gradient), &along) / bend(j)),
                 () => ZERO,

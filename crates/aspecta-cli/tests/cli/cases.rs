@@ -169,6 +169,22 @@ fn the_ranges_of_aspects_are_in_the_table() {
     assert!(ranges.contains(" to "), "{ranges}");
 }
 
+/// Of its four modes two have det A = 0 everywhere.
+#[test]
+fn the_leg_of_a_quadruped_has_two_aspects() {
+    let robot = case("leg-coaxial");
+    let text = stdout(&format!("analyze {robot}"));
+    assert!(text.contains("certified: exactly 2"), "{text}");
+    for mode in ["++", "--"] {
+        let said = format!("Mode {mode} (1 domain, area of 0.25");
+        assert!(text.contains(&said) && text.contains("det A vanishes everywhere"), "{text}");
+    }
+    let found = &json(&format!("analyze {robot} --json"))["singular_modes"][0];
+    let [inner, undecided] = ["measure", "undecided"].map(|key| found[key].as_f64().unwrap());
+    let ring = std::f64::consts::PI * (0.3f64.powi(2) - 0.1f64.powi(2));
+    assert!(inner < ring && ring < inner + undecided && undecided < 0.001, "{inner} {undecided}");
+}
+
 #[test]
 fn the_analysis_ends_with_table_2_and_the_number() {
     let text = stdout("analyze five-bar");

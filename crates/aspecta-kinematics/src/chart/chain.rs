@@ -24,11 +24,12 @@ fn angles_of(actuator: &Actuator) -> [(Interval, Interval); 2] {
     [proximal, (distal_cos, (Interval::point(1.0) - distal_cos.square()).sqrt())]
 }
 
-/// The chart for a platform that turns about a point, if `window` holds all its orientations.
+/// The chart for a platform that turns about a point, if `window` holds all its orientations. Where legs are one and the same there is
+/// none: of their determinant a factor is taken out that is no function of its coordinates ([`ModalRows::parted`](crate::modal::ModalRows::parted)).
 pub(super) fn of(robot: &Robot, window: &Window) -> Option<Chain> {
     let whole = window.cut.iter().all(|&cut| cut == (false, false)) && window.held().next().is_none();
     let spherical = robot.legs.first()?.actuator.as_spherical().is_some();
-    (robot.platform == Platform::TurningBody && spherical && whole)
+    (robot.platform == Platform::TurningBody && spherical && whole && robot.twins().is_empty())
         .then_some(Chain { leg: LegIndex::new(0), bend: None })
 }
 

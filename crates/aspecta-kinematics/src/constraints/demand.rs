@@ -13,7 +13,7 @@ use std::cell::LazyCell;
 pub struct Demand {
     /// The working mode.
     pub mode: WorkingMode,
-    /// The sign of det A: +1 or −1.
+    /// The sign of det A: +1 or −1; 0 if nothing is asked of det A.
     pub sign: i8,
     /// The margins by which they stay away from singularities.
     pub margins: Margins,
@@ -74,6 +74,7 @@ impl<'a, T: Scalar, const D: usize, const N: usize> Constraints<'a, T, D, N> {
                 let value = match constraint.kind() {
                     Kind::Serial(_) => continue,
                     Kind::Limit if !demand.limits => continue,
+                    Kind::Parallel if demand.sign == 0 => continue,
                     Kind::Limit => at.margin(constraint),
                     Kind::Parallel => self.det(&rows, mode, demand),
                 };

@@ -77,6 +77,7 @@ class Analysis(Result, Frame):
         robot: the robot.
         classes: Table 2: a class per working mode and sign of det A.
         doubts: what keeps the bounds apart, if they are.
+        singular_modes: the modes in which det A vanishes at every pose, because two legs are one and the same: they have no aspects.
         measure: the quantity measured, and its unit.
     """
 
@@ -85,6 +86,7 @@ class Analysis(Result, Frame):
     robot: Robot
     classes: list[dict[str, Any]]
     doubts: list[dict[str, Any]]
+    singular_modes: list[dict[str, Any]]
     measure: dict[str, Any]
     _paving: _native.Analysis | None
     #: The SVG that notebooks show, once it was asked for.

@@ -158,6 +158,9 @@ questions! {
     /// ‖weight · ∂f/∂d‖ at the configurations of a closure: twice the rod's length times the weight.
     fn row_length[T: Scalar, const D: usize](&self, closure: &Closure<T, D>) -> T;
 
+    /// The numbers of the leg equation but for the coordinates of points.
+    fn constants(&self) -> Vec<Interval>;
+
     // ---- Limits.
 
     /// (q − min)(max − q), or a like product that has its sign, if q is a length; else it may be anything.

@@ -91,6 +91,10 @@ impl LegKind for Prismatic {
         closure.weight.scale(self.rod + self.rod)
     }
 
+    fn constants(&self) -> Vec<Interval> {
+        vec![self.rod]
+    }
+
     fn length_margin<T: Scalar, const D: usize>(&self, d: &[T; D], sh: T, min: Interval, max: Interval) -> T {
         let q = d[0] + sh;
         (q - T::constant(min)) * (T::constant(max) - q)

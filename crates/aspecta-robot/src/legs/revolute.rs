@@ -131,6 +131,10 @@ impl LegKind for Revolute {
         closure.weight.scale(self.rod + self.rod)
     }
 
+    fn constants(&self) -> Vec<Interval> {
+        vec![self.crank, self.rod]
+    }
+
     fn length_margin<T: Scalar, const D: usize>(&self, _: &[T; D], _: T, _: Interval, _: Interval) -> T {
         T::constant(Interval::ENTIRE)
     }

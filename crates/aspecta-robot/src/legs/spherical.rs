@@ -114,6 +114,10 @@ impl LegKind for Spherical {
         closure.weight
     }
 
+    fn constants(&self) -> Vec<Interval> {
+        vec![self.proximal.0, self.proximal.1, self.distal_cos]
+    }
+
     fn length_margin<T: Scalar, const D: usize>(&self, _: &[T; D], _: T, _: Interval, _: Interval) -> T {
         T::constant(Interval::ENTIRE)
     }

@@ -79,6 +79,10 @@ impl LegKind for Strut {
     }
 
     /// In q², which is smooth in d.
+    fn constants(&self) -> Vec<Interval> {
+        Vec::new()
+    }
+
     fn length_margin<T: Scalar, const D: usize>(&self, d: &[T; D], _: T, min: Interval, max: Interval) -> T {
         let q2 = sum_of_squares(d);
         (q2 - T::constant(min.square())) * (T::constant(max.square()) - q2)

@@ -30,6 +30,16 @@ pub(super) fn most_reach<const D: usize>(actuator: &Actuator, d: &[Interval; D])
     }
 }
 
+/// The numbers in the leg equation but for the coordinates of points.
+pub(crate) fn constants(actuator: &Actuator) -> Vec<Interval> {
+    match *actuator {
+        Actuator::Revolute(Revolute { crank, rod }) => vec![crank, rod],
+        Actuator::Prismatic(Prismatic { rod }) => vec![rod],
+        Actuator::Strut(Strut) => Vec::new(),
+        Actuator::Spherical(Spherical { proximal: (cos, sin), distal_cos }) => vec![cos, sin, distal_cos],
+    }
+}
+
 /// |∂f/∂q| per √H.
 pub(crate) fn slope_per_root(actuator: &Actuator) -> f64 {
     match actuator {

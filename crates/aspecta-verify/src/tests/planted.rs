@@ -26,12 +26,20 @@ fn folding(name: &str, length: f64) -> Robot {
     robot
 }
 
+/// Two legs that are one: in `++` det A vanishes everywhere.
+fn coaxial() -> Robot {
+    let leg = RobotLeg::revolute([0.0, 0.0], [0.0, 0.0], 3.0, 2.0);
+    Robot::new("coaxial", Platform::PlanePoint, vec![leg.clone(), leg]).unwrap()
+}
+
 /// In the plane: checked at once.
 fn quick() -> Vec<Certificate> {
     vec![
         COARSE.clone(),
         coarse(&folding("five-bar", 6.0), &[], "++", 7),
         coarse(&folding("3-rrr", 10.0), &[(2, 0.1)], "+++", 6),
+        coarse(&coaxial(), &[], "+-", 6),
+        coarse(&coaxial(), &[], "++", 6),
     ]
 }
 
@@ -62,7 +70,7 @@ fn any_leaf<'a>(
 }
 
 /// How many kinds of faults there are; as many certificates have no divisor in common with it.
-const KINDS: usize = 10;
+const KINDS: usize = 11;
 
 /// Plants a fault, by number; its name, or nothing if the certificate has no place for it.
 fn plant(certificate: &mut Certificate, fault: usize, random: &mut Random) -> Option<&'static str> {
@@ -130,6 +138,13 @@ fn plant(certificate: &mut Certificate, fault: usize, random: &mut Random) -> Op
             certificate.seams.get_mut(k)?.class ^= 1;
             Some("a seam of another class")
         }
+        9 => {
+            let (lo, hi) = certificate.window.ranges[0];
+            let further = 0.1 * (hi - lo);
+            let anchor = &mut certificate.robot.legs[0].anchor[0];
+            *anchor = Interval::point(anchor.mid() + further);
+            Some("a leg elsewhere")
+        }
         _ => {
             let claim = certificate.claims[class];
             if claim.low == 0 {
@@ -149,7 +164,7 @@ fn holds(sheet: &crate::certificate::Sheet, fits: impl Fn(&Leaf) -> bool) -> boo
 #[test]
 fn no_planted_fault_is_accepted() {
     // In none of these a chart covers a box.
-    plant_all(&quick(), 15, KINDS - 1);
+    plant_all(&quick(), 33, KINDS - 1);
 }
 
 #[test]

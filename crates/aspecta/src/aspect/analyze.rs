@@ -1,6 +1,5 @@
 //! The main job: a robot in, its working modes and generalized aspects out.
 
-use super::AspectId;
 use super::ascent::Class;
 use super::atlas::{Atlas, Leaf};
 use super::certify::certificate;
@@ -15,6 +14,7 @@ use super::refusal::{AnalysisError, refuse};
 use super::result::*;
 use super::seams::centre;
 use super::search::Search;
+use super::{AspectId, SingularMode};
 use crate::paving::{Budget, Control, MODES, Mark, Node, Paving, Progress, Stop};
 use aspecta_kinematics::chart::uncharted_folds;
 use aspecta_kinematics::parallel_rods::parallel_rods;
@@ -120,7 +120,10 @@ fn analyze_here(robot: &Robot, options: &Options, control: &Control<'_>) -> Resu
     };
     let mut found = Vec::new();
     let (mut reports, mut doubts, mut certificate, mut pavings) = (vec![], vec![], None, vec![]);
-    for pass in passes {
+    let mut singular_modes = Vec::new();
+    for mut pass in passes {
+        pass.paving.leave_vanishing();
+        singular_modes.extend(pass.singular_modes);
         found.extend(pass.found);
         reports.extend(pass.modes);
         doubts.extend(pass.doubts);
@@ -138,6 +141,7 @@ fn analyze_here(robot: &Robot, options: &Options, control: &Control<'_>) -> Resu
         legs: leg_reports(robot),
         modes: reports,
         classes,
+        singular_modes,
         doubts,
         architecturally_singular,
         parallel_rods,
@@ -156,6 +160,7 @@ fn analyze_here(robot: &Robot, options: &Options, control: &Control<'_>) -> Resu
 /// The findings of one pass over its modes.
 struct Pass {
     found: Vec<Found>,
+    singular_modes: Vec<SingularMode>,
     doubts: Vec<Doubt>,
     modes: Vec<ModeReport>,
     certificate: Option<Certificate>,
@@ -175,10 +180,21 @@ impl Pass {
     ) -> Self {
         let Search { atlas, counted, stop } = Search::run(robot, window, modes, budget, control);
         let paving = &atlas.sheets[0];
-        let found = work::map(&counted, |(class, counted)| Found::new(&atlas, *class, counted));
+        let mut found = work::map(&counted, |(class, counted)| Found::new(&atlas, *class, counted));
+        let mut singular_modes = Vec::new();
+        for ((class, _), found) in
+            counted.iter().zip(&mut found).filter(|(c, _)| c.0.bit & paving.vanishing() != 0)
+        {
+            let domains = std::mem::replace(found, Found::none(*class)).class;
+            if domains.det_a == DetSign::Positive {
+                singular_modes.extend(SingularMode::new(robot, domains));
+            }
+        }
+        let in_doubt = counted.iter().filter(|(class, _)| class.bit & paving.vanishing() == 0);
         Self {
             found,
-            doubts: counted.iter().flat_map(|(class, counted)| doubts(&atlas, *class, counted)).collect(),
+            singular_modes,
+            doubts: in_doubt.flat_map(|(class, counted)| doubts(&atlas, *class, counted)).collect(),
             modes: modes.iter().enumerate().map(|(m, mode)| mode_report(robot, paving, m, *mode)).collect(),
             certificate: keep_proof.then(|| certificate(&atlas, &counted)),
             boxes: atlas.boxes(),
@@ -201,6 +217,21 @@ struct Found {
 }
 
 impl Found {
+    /// Of a class that there is nothing of.
+    fn none(class: Class) -> Self {
+        let (mode, det_a) = (class.mode, class.det_a());
+        let class = AspectClass {
+            mode,
+            det_a,
+            low: 0,
+            high: Some(0),
+            measure: 0.0,
+            undecided: 0.0,
+            aspects: Vec::new(),
+        };
+        Self { class, labels: Vec::new() }
+    }
+
     fn new(atlas: &Atlas<'_>, class: Class, counted: &Counted) -> Self {
         let components = &counted.components;
         let total =
@@ -227,7 +258,7 @@ impl Found {
         let aspects: Vec<Aspect> = groups.iter().map(|g| aspect(atlas, class, components, g)).collect();
         let class = AspectClass {
             mode: class.mode,
-            det_a: if class.sign > 0 { DetSign::Positive } else { DetSign::Negative },
+            det_a: class.det_a(),
             low: aspects.len(),
             high: counted.high(),
             measure: aspects.iter().map(|a| a.measure).sum(),

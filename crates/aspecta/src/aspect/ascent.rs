@@ -5,6 +5,7 @@
 //! one aspect with the piece it began in.
 
 use super::components::{Components, UnionFind};
+use super::result::DetSign;
 use crate::paving::{ClassSet, Paving};
 use aspecta_kinematics::chart::Chart;
 use aspecta_kinematics::chart::Coordinates;
@@ -21,12 +22,26 @@ const STEPS: usize = 60;
 /// Most interval evaluations a step may take to be proved.
 const EFFORT: usize = 64;
 
-/// A class of aspects: a working mode and a sign of det A, with the bit it has in a paving.
+/// A class of aspects: a working mode and a sign of det A, with the bit it has in a paving. The sign is 0 in a mode in which det A
+/// vanishes identically: nothing is asked of it then.
 #[derive(Clone, Copy)]
 pub(super) struct Class {
     pub mode: WorkingMode,
     pub sign: i8,
     pub bit: ClassSet,
+}
+
+impl Class {
+    /// Both classes of the mode with this number in a paving, det A > 0 first.
+    pub(super) fn both(paving: &Paving, m: usize) -> [Self; 2] {
+        let signs = if paving.vanishes_in(m) { [0; 2] } else { [1, -1] };
+        let mode = paving.modes[m];
+        [(signs[0], 1 << (2 * m)), (signs[1], 2 << (2 * m))].map(|(sign, bit)| Self { mode, sign, bit })
+    }
+
+    pub(super) fn det_a(self) -> DetSign {
+        if self.bit.trailing_zeros().is_multiple_of(2) { DetSign::Positive } else { DetSign::Negative }
+    }
 }
 
 /// Which pieces are proved to be one: sets of piece numbers, and the paths that prove it. Climbs start from

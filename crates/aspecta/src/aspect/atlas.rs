@@ -92,7 +92,8 @@ impl<'a> Atlas<'a> {
         let first = if replaced { half } else { budget.start(window) };
         let mut poses = Paving::new(robot, window, modes, &first, control);
         poses.nodes.iter_mut().for_each(|node| node.covered = replaced);
-        let blank = charts.iter().map(|chart| Paving::blank(chart.clone(), chart.window(window), modes));
+        let blank =
+            charts.iter().map(|chart| Paving::blank(robot, chart.clone(), chart.window(window), modes));
         let sheets = std::iter::once(poses).chain(blank).collect();
         Self { scale: scale::typical(robot, window, modes), robot, charts, sheets }
     }

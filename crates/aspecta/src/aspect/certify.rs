@@ -11,12 +11,18 @@ use aspecta_verify::certificate::{
 
 /// Returns the certificate of all that the bounds rest on.
 pub(super) fn certificate(atlas: &Atlas<'_>, counted: &[(Class, Counted)]) -> Certificate {
-    let claims = counted.iter().map(|(_, c)| Claim { low: c.low(), high: c.high() }).collect();
+    let vanishing = atlas.sheets[0].vanishing();
+    let claim = |(class, c): &(Class, Counted)| match class.bit & vanishing {
+        0 => Claim { low: c.low(), high: c.high() },
+        _ => Claim { low: 0, high: Some(0) },
+    };
+    let claims = counted.iter().map(claim).collect();
+    let counted = || counted.iter().filter(|(class, _)| class.bit & vanishing == 0);
     let index = |class: &Class| class.bit.trailing_zeros() as usize;
-    let joins = counted.iter().flat_map(|(class, c)| {
+    let joins = counted().flat_map(|(class, c)| {
         c.joins.iter().map(|join| Join { class: index(class), sheet: join.sheet, path: join.points.clone() })
     });
-    let seams = counted.iter().flat_map(|(class, c)| {
+    let seams = counted().flat_map(|(class, c)| {
         let seam = |&(sheet, node): &Leaf| Seam {
             class: index(class),
             sheet,
@@ -54,11 +60,12 @@ pub fn certify(
 /// The leaves of a paving.
 fn tree(paving: &Paving) -> Tree {
     let mut entries = Vec::with_capacity(paving.nodes.len());
+    let vanishing = paving.vanishing();
     let mut open = vec![0];
     while let Some(at) = open.pop() {
         let node = &paving.nodes[at as usize];
         if node.first_child == 0 {
-            let (inside, undecided) = (node.inside, node.undecided);
+            let (inside, undecided) = (node.inside & !vanishing, node.undecided & !vanishing);
             let summitless = node.summitless & (inside | undecided);
             entries.push(Entry::Leaf(certificate::Leaf {
                 inside,

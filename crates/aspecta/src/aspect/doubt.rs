@@ -3,7 +3,7 @@
 use super::ascent::Class;
 use super::atlas::{Atlas, Leaf};
 use super::count::Counted;
-use super::result::{DetSign, Doubt, DoubtKind};
+use super::result::{Doubt, DoubtKind};
 use super::seams::poses;
 use aspecta_kinematics::chart::{Chart, Coordinates};
 use aspecta_kinematics::constraints::{Constraints, Demand};
@@ -36,7 +36,7 @@ fn doubt(atlas: &Atlas<'_>, class: Class, kind: DoubtKind, boxes: &[Leaf]) -> Op
     let in_poses = boxes.iter().filter(|leaf| leaf.0 == 0);
     Some(Doubt {
         mode: class.mode,
-        det_a: if class.sign > 0 { DetSign::Positive } else { DetSign::Negative },
+        det_a: class.det_a(),
         kind,
         boxes: boxes.len(),
         // The sum of none is −0.

@@ -14,8 +14,8 @@ use aspecta_robot::work;
 
 /// Definition 5: where det A > 0 in some working mode, and where it is < 0 in some.
 pub(super) fn parallel_aspects(robot: &Robot, paving: &Paving) -> Vec<EarlierAspects> {
-    let plus: ClassSet = 0x5555;
-    let minus: ClassSet = 0xAAAA;
+    let plus: ClassSet = 0x5555 & !paving.vanishing();
+    let minus: ClassSet = 0xAAAA & !paving.vanishing();
     let both = |node: &Node| intersection(node.of_classes(plus), node.of_classes(minus));
     let overlap = measure(paving, &both);
     work::map(&[("det A > 0", plus), ("det A < 0", minus)], |&(name, classes)| EarlierAspects {

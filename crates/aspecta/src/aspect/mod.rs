@@ -3,7 +3,7 @@
 //! | paper | here |
 //! |---|---|
 //! | Theorem 1 | [`LegReport`] |
-//! | Def. 5, parallel aspects | [`Analysis::parallel_aspects`] |
+//! | Def. 5, parallel aspects | [`Analysis::parallel_aspects`]; "unless it is zero everywhere": [`SingularMode`] |
 //! | Def. 6, serial aspects | [`Analysis::serial_aspects`] |
 //! | Def. 7, working modes | [`aspecta_robot::WorkingMode`], [`ModeReport`] |
 //! | Def. 8, generalized aspects | [`Aspect`], [`AspectClass`] |
@@ -26,6 +26,7 @@ mod saddle;
 mod scale;
 mod seams;
 mod search;
+mod singular;
 mod summit;
 
 pub(crate) use components::UnionFind;
@@ -42,3 +43,4 @@ pub use result::{
     FORMAT_VERSION, LegReport, ModeReport, Place, Reachable, Run, Sample,
 };
 pub use scale::typical;
+pub use singular::SingularMode;

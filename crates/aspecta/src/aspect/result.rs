@@ -2,7 +2,7 @@
 
 use super::ascent::{Class, ascend};
 use super::measure::{Held, Measure};
-use super::{AspectId, ClassId};
+use super::{AspectId, ClassId, SingularMode};
 use crate::paving::{BoxOf, ClassSet, MODES, Paving, Stop};
 use aspecta_kinematics::parallel_rods::ParallelRods;
 use aspecta_kinematics::{WorkingMode, for_platform};
@@ -38,6 +38,8 @@ pub struct Analysis {
     pub modes: Vec<ModeReport>,
     /// Table 2: one class per working mode and sign of det A, in the order of the modes, + before −.
     pub classes: Vec<AspectClass>,
+    /// The working modes in which det A vanishes at every pose: they have no aspects.
+    pub singular_modes: Vec<SingularMode>,
     /// The doubts that keep the bounds apart; empty if the bounds meet.
     pub doubts: Vec<Doubt>,
     /// Whether the robot seems to be singular wherever it goes ([`aspecta_kinematics::architecture`], numerical): then nothing is

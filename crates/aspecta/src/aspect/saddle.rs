@@ -35,8 +35,9 @@ pub(super) fn no_local_maximum<const D: usize, const N: usize, const M: usize>(
         return [false; 2];
     }
     let heights = std::array::from_fn(|j| legs[j].heights()[0]);
-    let mut det = ModalRows::<Second<M>, N>::new(robot, &legs, &heights).det(mode);
-    for leg in &legs {
+    let mut det = ModalRows::<Second<M>, N>::parted(robot, &paving.twins, &legs, heights).det(mode);
+    let is_second = |j: usize| paving.twins.iter().any(|[_, second]| second.index() == j);
+    for (_, leg) in legs.iter().enumerate().filter(|(j, _)| !is_second(*j)) {
         det = det / leg.closure.weight;
     }
     let hessian = |i: usize, j: usize| det.gradient[i].gradient[j];

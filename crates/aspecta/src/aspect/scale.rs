@@ -42,7 +42,9 @@ fn sample<const D: usize, const N: usize>(robot: &Robot, window: &Window, modes:
         .filter(|constraint| constraint.is_limit())
         .map(|constraint| (constraint, Mean::default()))
         .collect();
-    let axes = window.axes();
+    let (axes, twins) = (window.axes(), robot.twins());
+    // Their rows are polynomials, and not divided by the weight.
+    let is_second = |j: usize| twins.iter().any(|[_, second]| second.index() == j);
     for index in 0..SAMPLES.pow(axes.len() as u32) {
         let mut pose: [f64; N] = std::array::from_fn(|k| window.ranges[k].0);
         for (a, &k) in axes.iter().enumerate() {
@@ -62,8 +64,8 @@ fn sample<const D: usize, const N: usize>(robot: &Robot, window: &Window, modes:
                 mean.add(at.margin(*constraint) / at.unit(*constraint));
             }
         }
-        let rows = ModalRows::<f64, N>::new(robot, &legs, &std::array::from_fn(|j| heights[j][0]));
-        let weights: f64 = legs.iter().map(|leg| leg.closure.weight).product();
+        let rows = ModalRows::<f64, N>::parted(robot, &twins, &legs, std::array::from_fn(|j| heights[j][0]));
+        let weights: f64 = (0..N).filter(|&j| !is_second(j)).map(|j| legs[j].closure.weight).product();
         modes.iter().for_each(|&mode| det.add(rows.det(mode) / weights));
     }
     let mut scale = Scale::ones(robot);

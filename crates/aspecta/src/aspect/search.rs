@@ -4,10 +4,9 @@ use super::ascent::Class;
 use super::atlas::{Atlas, Leaf, Limits};
 use super::count::{Counted, count};
 use crate::paving::{Budget, Control, MAX_BOXES, MAX_DEPTH, Progress, Stop};
-use aspecta_robot::WorkingMode;
 use aspecta_robot::work;
 use aspecta_robot::work::Stopwatch;
-use aspecta_robot::{Robot, Window};
+use aspecta_robot::{Robot, Window, WorkingMode};
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -44,7 +43,7 @@ impl<'a> Search<'a> {
         let leaves = search.atlas.undecided_leaves();
         let mut afforded = search.atlas.uncover(leaves, &limits);
         let counting = Stopwatch::start();
-        search.count_all(modes, &limits);
+        search.count_all(&limits);
         limits.rest = limits.rest.max(AFTER * counting.seconds() / search.atlas.boxes() as f64);
         afforded &= search.join(&limits);
         // Nothing is left to be found by going on as finely as was allowed.
@@ -69,12 +68,10 @@ impl<'a> Search<'a> {
         self.counted.iter().all(|(_, counted)| counted.is_exact())
     }
 
-    fn count_all(&mut self, modes: &[WorkingMode], limits: &Limits<'_>) {
-        let signs = |(m, &mode): (usize, &WorkingMode)| {
-            [(1, 1 << (2 * m)), (-1, 2 << (2 * m))].map(|(sign, bit)| Class { mode, sign, bit })
-        };
-        let classes: Vec<Class> = modes.iter().enumerate().flat_map(signs).collect();
+    fn count_all(&mut self, limits: &Limits<'_>) {
         let atlas = &self.atlas;
+        let paving = &atlas.sheets[0];
+        let classes: Vec<Class> = (0..paving.modes.len()).flat_map(|m| Class::both(paving, m)).collect();
         self.counted = work::map(&classes, |&class| (class, count(atlas, class, limits)));
         self.remember(limits);
     }

@@ -146,7 +146,8 @@ impl<'a, const D: usize, const N: usize, const M: usize> Eight<'a, D, N, M> {
     /// looked at.
     fn by_parts(&self) -> [ClassSet; LANES] {
         let singular = std::array::from_fn(|j| {
-            (0..LANES).any(|l| self.asked[l] != 0 && self.view.may_be_singular(j, l))
+            self.view.twin_of[j].is_none()
+                && (0..LANES).any(|l| self.asked[l] != 0 && self.view.may_be_singular(j, l))
         });
         if !singular.contains(&true) {
             return [0; LANES];
@@ -154,7 +155,10 @@ impl<'a, const D: usize, const N: usize, const M: usize> Eight<'a, D, N, M> {
         let depth = self.boxes.iter().map(|b| self.view.paving.depth_of(b.0)).max().unwrap_or(0);
         let mut ways = self.whole();
         let mut held = self.asked;
-        for heights in parts(&self.view.heights, &singular, depth) {
+        for mut heights in parts(&self.view.heights, &singular, depth) {
+            for (j, twin) in self.view.twin_of.iter().enumerate() {
+                heights[j] = twin.map_or(heights[j], |twin| heights[twin]);
+            }
             ways.iter_mut().for_each(|way| way.set(&heights));
             let found = self.over(&ways, &held);
             (0..LANES).for_each(|l| held[l] &= found[l]);
@@ -189,13 +193,13 @@ impl<'a, const D: usize, const N: usize, const M: usize> Eight<'a, D, N, M> {
         let any = asked.iter().fold(0, |any, classes| any | classes);
         let mut proved = [0; LANES];
         for (m, &mode) in view.paving.modes.iter().enumerate().filter(|(m, _)| any >> (2 * m) & 3 != 0) {
-            let det = Determinant::new(view, &way.legs, mode);
+            let det = (!view.paving.vanishes_in(m)).then(|| Determinant::new(view, &way.legs, mode));
             for (l, frame) in frames.iter().enumerate().filter(|(l, _)| asked[*l] >> (2 * m) & 3 != 0) {
                 let Some(frame) = frame else { continue };
                 let Some(common) = way.constraints(frame, mode, l) else { continue };
-                let det = det.growth(frame, mode, view.scale, l);
+                let det = det.as_ref().map(|det| det.growth(frame, mode, view.scale, l));
                 for (sign, bit) in [(1.0, 1 << (2 * m)), (-1.0, 2 << (2 * m))] {
-                    if asked[l] & bit != 0 && can_climb(&common, &det.signed(sign)) {
+                    if asked[l] & bit != 0 && can_climb(&common, det.map(|det| det.signed(sign)).as_ref()) {
                         proved[l] |= bit;
                     }
                 }
@@ -214,6 +218,9 @@ impl<'a, const D: usize, const N: usize, const M: usize> Eight<'a, D, N, M> {
         (m, mode): (usize, WorkingMode),
     ) -> ClassSet {
         let view = &self.view;
+        if view.paving.vanishes_in(m) {
+            return 0;
+        }
         let Some(frame) = Frame::new(view, &way.legs, lane) else { return 0 };
         let Some(all) = way.constraints(&frame, mode, lane) else { return 0 };
         let least = all.iter().fold(f64::INFINITY, |least, g| least.min(g.value.lo));

@@ -9,7 +9,7 @@ use aspecta_kinematics::chart::Coordinates;
 use aspecta_kinematics::constraints::{Configuration, Constraint, Kind};
 use aspecta_kinematics::modal::{LegClosure, ModalRows};
 use aspecta_kinematics::placement::Placement;
-use aspecta_kinematics::{LegSet, WorkingMode};
+use aspecta_kinematics::{LegIndex, LegSet, WorkingMode};
 use aspecta_robot::num::{Interval, LANES, Mask, Pack, Scalar, Slope, each};
 use aspecta_robot::{Robot, Window};
 
@@ -40,6 +40,9 @@ impl Slab {
 pub(super) struct Classifier<'a, const D: usize, const N: usize, const M: usize> {
     robot: &'a Robot,
     modes: &'a [WorkingMode],
+    /// The modes, one bit each, in which det A vanishes identically and nothing is asked of it.
+    vanishing: u8,
+    twins: &'a [[LegIndex; 2]],
     chart: &'a Chart,
     /// The charts that cover part of this one.
     charts: &'a [Chart],
@@ -65,7 +68,9 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
         axes.copy_from_slice(&paving.axes);
         let (modes, chart, window) = (&paving.modes, &paving.chart, &paving.window);
         let slabs = std::array::from_fn(|_| Vec::new());
-        let mut classifier = Self { robot, modes, chart, charts, window, depth, slabs, axes };
+        let vanishing = modes_of(paving.vanishing());
+        let mut classifier =
+            Self { robot, modes, vanishing, twins: &paving.twins, chart, charts, window, depth, slabs, axes };
         if boxes << 3 > 1 << depth {
             classifier.slabs = std::array::from_fn(|k| {
                 let count = if axes.contains(&k) { 1 << depth } else { 1 };
@@ -183,8 +188,14 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
                 Kind::Parallel => {}
             }
         }
-        let rows = ModalRows::new(self.robot, legs, &each!(|j| heights[j][0]));
-        rows.dets(self.modes, wanted, |m, det| {
+        let rows = ModalRows::parted(self.robot, self.twins, legs, each!(|j| heights[j][0]));
+        let vanishing = wanted & self.vanishing;
+        for m in (0..self.modes.len()).filter(|m| vanishing >> m & 1 == 1) {
+            for (l, node) in boxes.iter_mut().enumerate() {
+                node.settle(m, known.kept[m][l], known.broken[m][l], true, false);
+            }
+        }
+        rows.dets(self.modes, wanted & !self.vanishing, |m, det| {
             let det = det.tightened().range;
             let (mut positive, mut negative) = (det.positive(), det.negative());
             let open = |l: usize| boxes[l].undecided >> (2 * m) & 3 != 0 && !(positive[l] || negative[l]);

@@ -52,7 +52,7 @@ impl Paving {
         budget: &Budget,
         control: &Control<'_>,
     ) -> Self {
-        let mut paving = Self::blank(Chart::Pose, window.clone(), modes);
+        let mut paving = Self::blank(robot, Chart::Pose, window.clone(), modes);
         let deadline = budget.seconds.map(|s| (Stopwatch::start(), s));
         let late = || deadline.is_some_and(|(start, seconds)| start.seconds() > PAVING_SHARE * seconds);
         let allowed = budget.boxes.unwrap_or(MAX_BOXES).min(MAX_BOXES);
@@ -84,12 +84,13 @@ impl Paving {
     }
 
     /// A paving of one box in which nothing is known.
-    pub fn blank(chart: Chart, window: Window, modes: &[WorkingMode]) -> Self {
+    pub fn blank(robot: &Robot, chart: Chart, window: Window, modes: &[WorkingMode]) -> Self {
         assert!(modes.len() <= MODES, "a pass takes up to {MODES} working modes");
         let all = ((1u32 << (2 * modes.len())) - 1) as ClassSet;
         Self {
             axes: window.axes(),
             modes: modes.to_vec(),
+            twins: robot.twins(),
             nodes: vec![Node { undecided: all, partly: !0, ..Node::default() }],
             depth: 0,
             boxes: 0,

@@ -3,7 +3,7 @@
 use aspecta_kinematics::chart::Chart;
 use aspecta_robot::WorkingMode;
 use aspecta_robot::num::Interval;
-use aspecta_robot::{ClassSet, Window};
+use aspecta_robot::{ClassSet, LegIndex, Window};
 
 /// A box: cell `corner` of the grid window / 2^depth.
 ///
@@ -83,6 +83,9 @@ pub struct Paving {
     pub axes: Vec<usize>,
     /// The modes, in the order of the class bits.
     pub modes: Vec<WorkingMode>,
+    /// The legs that are one and the same ([`Robot::twins`](aspecta_robot::Robot::twins)). Where both are in one posture det A vanishes
+    /// identically, and nothing is asked of it: the poses at which such a mode exists are in its first class, and none are in its second.
+    pub twins: Vec<[LegIndex; 2]>,
     /// All nodes, children after their parents. Node 0 is the window.
     pub nodes: Vec<Node>,
     /// Depth of the finest nodes.
@@ -149,6 +152,26 @@ impl Paving {
         match self.nodes[node as usize].first_child {
             0 => 0..0,
             first => first..first + (1 << self.axes.len()),
+        }
+    }
+
+    /// Whether det A vanishes identically in mode `m`.
+    pub fn vanishes_in(&self, m: usize) -> bool {
+        let sign = |leg: &LegIndex| self.modes[m].sign(leg.index());
+        self.twins.iter().any(|[i, j]| sign(i) == sign(j))
+    }
+
+    /// The classes of the modes in which det A vanishes identically.
+    pub fn vanishing(&self) -> ClassSet {
+        (0..self.modes.len()).filter(|&m| self.vanishes_in(m)).fold(0, |set, m| set | 3 << (2 * m))
+    }
+
+    /// Puts all poses outside the classes of modes in which det A vanishes identically: they have no aspects.
+    pub(crate) fn leave_vanishing(&mut self) {
+        let vanishing = self.vanishing();
+        for node in &mut self.nodes {
+            node.inside &= !vanishing;
+            node.undecided &= !vanishing;
         }
     }
 

@@ -5,6 +5,7 @@ mod domains;
 pub mod doubt;
 mod doubts;
 mod route;
+mod singular;
 mod table;
 
 pub use analysis::{AnalysisAdvice, AnalysisSummary, EARLIER_NEED};
@@ -12,6 +13,7 @@ pub use aspecta_kinematics::path::PathSummary;
 pub use aspecta_robot::text::{Labels, between, brief, det_a_unit, number, subscript, unsigned};
 pub use domains::{DomainsAdvice, DomainsSummary};
 pub use route::RouteSummary;
+pub use singular::singular_modes;
 pub use table::{Align, Table};
 
 /// Columns that text is broken for.

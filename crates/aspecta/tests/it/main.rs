@@ -31,3 +31,4 @@ mod spatial;
 mod special_hexapods;
 mod sweep;
 mod time;
+mod twins;

@@ -742,7 +742,7 @@ fn the_smallest_boxes_have_a_measure() {
     let robot = catalogue::find("spherical-3-rrr").unwrap();
     let window = robot.slice(&[]).unwrap();
     let whole: f64 = window.ranges.iter().map(|r| r.1 - r.0).product();
-    let paving = Paving::blank(Chart::Pose, window, &robot.working_modes());
+    let paving = Paving::blank(&robot, Chart::Pose, window, &robot.working_modes());
     for depth in 0..=26 {
         let parts = 8f64.powi(depth as i32);
         assert!((paving.measure(depth) * parts / whole - 1.0).abs() < 1e-12, "{depth}");

@@ -19,8 +19,8 @@ impl<const M: usize> Growth<M> {
 
 /// Whether some fixed combination of the frame makes every constraint grow that can be the least one in the
 /// box.
-pub(super) fn can_climb<const M: usize>(common: &[Growth<M>], det: &Growth<M>) -> bool {
-    let all = || common.iter().chain([det]);
+pub(super) fn can_climb<const M: usize>(common: &[Growth<M>], det: Option<&Growth<M>>) -> bool {
+    let all = || common.iter().chain(det);
     let least = all().fold(f64::INFINITY, |least, g| least.min(g.value.hi));
     if least <= 0.0 {
         return true;

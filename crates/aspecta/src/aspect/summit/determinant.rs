@@ -60,12 +60,13 @@ impl<const N: usize, const M: usize> Determinant<N, M> {
         // The mean-value theorem, where the gradient is the whole of the derivative.
         let middle = by.as_ref().map_or(det.centre, |by| det.centre / by.det);
         let around = (0..M).fold(middle, |sum, a| sum + gradient[a].symmetric());
-        let whole: Mask = std::array::from_fn(|l| !(0..N).any(|j| part[j].singular[l]));
+        let depends = |j: usize, l: usize| part[j].singular[l] && !view.parted[j];
+        let whole: Mask = std::array::from_fn(|l| !(0..N).any(|j| depends(j, l)));
         let value = range(det);
         Self {
             value: Pack::select(&whole, value.meet(around), value),
             gradient,
-            own: each!(|j| match view.rooted[j] {
+            own: each!(|j| match view.rooted[j] && !view.parted[j] {
                 true => range(partial(j, each!(|i| view.swing[j][i].value))),
                 false => Pack::zero(),
             }),

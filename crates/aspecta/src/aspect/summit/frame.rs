@@ -24,7 +24,8 @@ impl<const N: usize, const M: usize> Frame<N, M> {
     ) -> Option<Self> {
         let singular: [bool; N] = std::array::from_fn(|j| legs[j].singular[lane]);
         let half = Interval::point(0.5);
-        let own_legs: ArrayVec<usize, N> = (0..N).filter(|&j| singular[j]).collect();
+        let own_legs: ArrayVec<usize, N> =
+            (0..N).filter(|&j| singular[j] && view.twin_of[j].is_none()).collect();
         if own_legs.len() > M {
             return None;
         }
@@ -39,6 +40,11 @@ impl<const N: usize, const M: usize> Frame<N, M> {
             if let Some(j) = leg {
                 vectors[i] = directions[i].map(|x| x * heights[j]);
                 climb[i][j] = dot(&gradients[j], &directions[i]) * half;
+            }
+        }
+        for (j, twin) in view.twin_of.iter().enumerate() {
+            if let Some(twin) = *twin {
+                climb.iter_mut().for_each(|climb| climb[j] = climb[twin]);
             }
         }
         Some(Self { vectors, climb, singular })

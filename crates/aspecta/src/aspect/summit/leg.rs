@@ -2,7 +2,7 @@
 
 use super::form::Form;
 use super::view::View;
-use aspecta_robot::num::{Mask, Pack, Scalar, Slope, each};
+use aspecta_robot::num::{Interval, Mask, Pack, Scalar, Slope, each};
 
 /// The part of a leg's functions that depends on the range of h.
 pub(super) struct LegPart<const N: usize, const M: usize> {
@@ -24,7 +24,11 @@ impl<const N: usize, const M: usize> LegPart<N, M> {
     ) -> Self {
         let fixed = view.fixed[j];
         let rows = if view.rooted[j] {
-            let h = view.height(j, height, &singular);
+            let h = if view.parted[j] {
+                Form::constant(Interval::point(1.0))
+            } else {
+                view.height(j, height, &singular)
+            };
             let swing: [Form<M>; N] = each!(|k| h * view.swing[j][k]);
             let up = each!(|k| (fixed[k] + swing[k]).tightened());
             [up, each!(|k| (fixed[k] - swing[k]).tightened())]

@@ -6,8 +6,8 @@ use aspecta_kinematics::chart::Coordinates;
 use aspecta_kinematics::constraints::Scale;
 use aspecta_kinematics::modal::LegClosure;
 use aspecta_kinematics::placement::{Placement, out_of_frame, wrench};
-use aspecta_robot::Robot;
 use aspecta_robot::num::{Interval, LANES, Mask, Pack, Scalar, Slope, each};
+use aspecta_robot::{LegIndex, Robot};
 
 /// The robot over eight boxes.
 pub(super) struct View<'a, const D: usize, const N: usize, const M: usize> {
@@ -28,6 +28,10 @@ pub(super) struct View<'a, const D: usize, const N: usize, const M: usize> {
     pub swing: [[Form<M>; N]; N],
     /// Which legs have a serial singularity with a root in it.
     pub rooted: [bool; N],
+    /// For a leg that is one with an earlier one, that: both have the same h.
+    pub twin_of: [Option<usize>; N],
+    /// The legs that are one with another: of det A their h is taken out ([`ModalRows::parted`](aspecta_kinematics::modal::ModalRows::parted)).
+    pub parted: [bool; N],
     /// Lanes in which every row of A is bounded.
     pub usable: Mask,
 }
@@ -55,6 +59,8 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
             scale,
             boxes: *boxes,
             placement,
+            twin_of: [None; N],
+            parted: [false; N],
             rooted: std::array::from_fn(|j| legs[j].fold.is_none() && robot.legs[j].actuator.postures() == 2),
             legs,
             heights: each!(|j| reach[j].value.sqrt()),
@@ -64,15 +70,20 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
             swing: [[Form::zero(); N]; N],
             usable: [true; LANES],
         };
+        for [first, second] in paving.twins.iter().map(|twins| twins.map(LegIndex::index)) {
+            view.twin_of[second] = Some(first);
+            (view.parted[first], view.parted[second]) = (true, true);
+        }
         (0..N).for_each(|j| view.set_rows(j));
         view
     }
 
-    /// Row j of A itself, not times the weight: what varies least is enclosed best.
+    /// Row j of A itself, not times the weight: what varies least is enclosed best. What stands in place of the row of a leg that is one with
+    /// an earlier one is a polynomial, times the weight.
     fn set_rows(&mut self, j: usize) {
         let (robot, leg) = (self.robot, &self.robot.legs[j]);
         let LegClosure { closure, arm, .. } = &self.legs[j];
-        let inverse = self.legs[j].is_weighted(leg).then(|| {
+        let inverse = (self.legs[j].is_weighted(leg) && self.twin_of[j].is_none()).then(|| {
             let weight = closure.weight.tightened();
             let positive = weight.value.range.positive();
             (0..LANES).for_each(|l| self.usable[l] &= positive[l]);
@@ -86,9 +97,13 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
             let row: [Form<M>; N] = wrench(robot.platform, &out_of_frame(leg, part), arm);
             each!(|k| row[k].tightened())
         };
-        self.fixed[j] = row(&closure.fixed);
+        if self.twin_of[j].is_none() {
+            self.fixed[j] = row(&closure.fixed);
+        }
         if self.rooted[j] {
-            self.swing[j] = row(&closure.swing);
+            if !self.parted[j] || self.twin_of[j].is_some() {
+                self.swing[j] = row(&closure.swing);
+            }
             self.smooth[j] = closure.reach.tightened().sqrt();
         }
     }
