@@ -30,22 +30,48 @@ impl Jacobians {
 
     /// The working mode: signs of B_jj.
     pub fn mode(&self) -> WorkingMode {
-        WorkingMode::from_signs(self.b.iter().map(|&b| b > 0.0))
+        mode(&self.b)
     }
+}
+
+/// [`Jacobians`] without allocation.
+pub(crate) struct Matrices<const N: usize> {
+    a: [[f64; N]; N],
+    pub b: [f64; N],
+    pub residual: f64,
+}
+
+impl<const N: usize> Matrices<N> {
+    pub(crate) fn at<const D: usize>(robot: &Robot, pose: &[f64], q: &[f64]) -> Self {
+        let placement = Placement::<f64, D>::at(robot.platform, pose);
+        let mut all = Self { a: [[0.0; N]; N], b: [0.0; N], residual: 0.0 };
+        for (j, leg) in robot.legs.iter().enumerate() {
+            let arm = placement.arm(leg);
+            let (f, gradient, slope) = leg_gradient(leg, &placement.span(leg, &arm), q[j]);
+            all.a[j] = wrench(robot.platform, &gradient, &arm);
+            all.b[j] = slope;
+            all.residual = all.residual.max(f.abs() / leg.actuator.equation_scale(q[j]));
+        }
+        all
+    }
+
+    pub(crate) fn det_a(&self) -> f64 {
+        determinant(&self.a)
+    }
+
+    pub(crate) fn mode(&self) -> WorkingMode {
+        mode(&self.b)
+    }
+}
+
+/// The signs of the B_jj.
+fn mode(b: &[f64]) -> WorkingMode {
+    WorkingMode::from_signs(b.iter().map(|&b| b > 0.0))
 }
 
 /// A, B and the residual of the leg equations.
 pub(crate) fn jacobians<const D: usize, const N: usize>(robot: &Robot, pose: &[f64], q: &[f64]) -> Jacobians {
-    let placement = Placement::<f64, D>::at(robot.platform, pose);
-    let mut a = [[0.0; N]; N];
-    let mut b = vec![0.0; N];
-    let mut residual: f64 = 0.0;
-    for (j, leg) in robot.legs.iter().enumerate() {
-        let arm = placement.arm(leg);
-        let (f, gradient, slope) = leg_gradient(leg, &placement.span(leg, &arm), q[j]);
-        a[j] = wrench(robot.platform, &gradient, &arm);
-        b[j] = slope;
-        residual = residual.max(f.abs() / leg.actuator.equation_scale(q[j]));
-    }
-    Jacobians { det_a: determinant(&a), a: a.iter().map(|r| r.to_vec()).collect(), b, residual }
+    let all = Matrices::<N>::at::<D>(robot, pose, q);
+    let rows = all.a.iter().map(|row| row.to_vec()).collect();
+    Jacobians { det_a: all.det_a(), a: rows, b: all.b.to_vec(), residual: all.residual }
 }

@@ -107,7 +107,7 @@ pub struct State {
 pub(crate) fn state(robot: &Robot, pose: &[f64], q: &[f64]) -> Result<State, KinematicsError> {
     let jacobians = robot.jacobians(pose, q)?;
     let values = singular_values(&Homogeneous::of(robot).matrix(&jacobians.a));
-    let serial_measures = serial_measures(robot, &jacobians.b);
+    let serial_measures: Vec<f64> = serial_measures(robot, &jacobians.b).collect();
     let serial_legs = serial_legs(robot, &jacobians.b);
     let parallel_measure = values.smallest;
     let mode = jacobians.mode();
@@ -137,16 +137,16 @@ fn keeps_limits<const D: usize, const N: usize>(robot: &Robot, pose: &[f64], mod
 
 /// The legs that are at a serial singularity.
 pub(crate) fn serial_legs(robot: &Robot, b: &[f64]) -> Vec<LegIndex> {
-    let near = serial_measures(robot, b).into_iter().enumerate().filter(|(_, m)| *m <= SINGULAR);
+    let near = serial_measures(robot, b).enumerate().filter(|(_, m)| *m <= SINGULAR);
     near.map(|(j, _)| LegIndex::new(j)).collect()
 }
 
-fn serial_measures(robot: &Robot, b: &[f64]) -> Vec<f64> {
+fn serial_measures(robot: &Robot, b: &[f64]) -> impl Iterator<Item = f64> {
     let measure = |(actuator, b): (&Actuator, &f64)| match actuator.greatest_reach() {
         Some(reach) => actuator.signed_height(b.abs()) / reach.mid().sqrt(),
         None => f64::from(*b != 0.0),
     };
-    robot.legs.iter().map(|l| &l.actuator).zip(b).map(measure).collect()
+    robot.legs.iter().map(|l| &l.actuator).zip(b).map(measure)
 }
 
 /// The extreme singular values of a matrix.

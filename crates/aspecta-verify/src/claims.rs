@@ -137,7 +137,10 @@ fn settle<const D: usize>(
                 (_, true) => doubt = doubt.or(Some(NOT_OUTSIDE)),
                 _ => {}
             }
-            let climbs = || legs.as_ref().is_none_or(|legs| legs.is_summitless(sign_of(class)));
+            let climbs = || {
+                place.is_about_fold_of_twins()
+                    || legs.as_ref().is_none_or(|legs| legs.is_summitless(sign_of(class)))
+            };
             if needs.summitless & bit != 0 && (outside || climbs()) {
                 needs.summitless &= !bit;
             } else if needs.summitless & bit != 0 {

@@ -5,9 +5,10 @@
 //! these rows has the sign of det A where h > 0, and need not vanish with h. It, but for a positive factor, is looked at in the place of det A.
 
 use super::body::{Body, MOST, constants};
-use super::place::Setting;
+use super::place::{Place, Setting};
+use aspecta_robot::chart::Chart;
 use aspecta_robot::num::{Interval, Scalar};
-use aspecta_robot::{Leg, Robot, WorkingMode};
+use aspecta_robot::{Leg, Platform, Robot, WorkingMode};
 
 /// The greatest width, relative to it or to 1, of what encloses one number: that of a file, or made of some by a few roundings. Of numbers
 /// within a tolerance, equal tolerances do not say that they are equal.
@@ -97,6 +98,31 @@ impl<T: Scalar, const D: usize> Body<'_, T, D> {
         Parts {
             fixed: std::array::from_fn(|i| row[i].k - f.k * (f.a * row[i].a + f.b * row[i].b) / size),
             swing: std::array::from_fn(|i| (f.b * row[i].a - f.a * row[i].b) / unit_size),
+        }
+    }
+}
+
+impl<const D: usize> Place<'_, D> {
+    /// Whether P certainly has no maximum in the box, of whatever class, because both legs of a plane point are one, with links of one length L, and
+    /// fold up there: with r = ‖C − A‖, H = r² (4L² − r²) and ‖c × v‖ = r² grow with r for r² < 2L², r = 0 has H = 0, and nothing else bounds the aspects.
+    pub(super) fn is_about_fold_of_twins(&self) -> bool {
+        let Setting { robot, chart, window, axes, twins, .. } = self.setting;
+        let legs = &robot.legs;
+        let is_bounded = legs.iter().any(|leg| !leg.limits.is_empty())
+            || window.cut.iter().any(|&(first, last)| first || last);
+        let in_poses = robot.platform == Platform::PlanePoint && **chart == Chart::Pose;
+        if !in_poses || twins.is_empty() || axes.len() != 2 || is_bounded {
+            return false;
+        }
+        match constants(&legs[0].actuator)[..] {
+            [crank, rod] if crank == rod => {
+                let square = |k: usize| {
+                    let d = self.y[k] + legs[0].attachment[k] - legs[0].anchor[k];
+                    d.square()
+                };
+                (crank.square() + rod.square() - square(0) - square(1)).is_positive()
+            }
+            _ => false,
         }
     }
 }

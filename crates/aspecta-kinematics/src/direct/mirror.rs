@@ -4,7 +4,7 @@
 use super::locked::{Locked, linearised, polish};
 use super::{Roots, SelfMotion};
 use aspecta_robot::Platform;
-use aspecta_robot::num::Interval;
+use aspecta_robot::num::{Interval, Scalar};
 use nalgebra::SVector;
 
 /// The points foot ± √square · normal.
@@ -16,6 +16,14 @@ pub(super) struct MirrorPair<const D: usize> {
     pub normal: [Interval; D],
     /// Below zero where there are none.
     pub square: Interval,
+}
+
+impl<const D: usize> MirrorPair<D> {
+    /// An enclosure of the point on one side, +1 or −1, if `square` is positive.
+    fn point(&self, side: f64) -> [Interval; D] {
+        let height = self.square.sqrt() * Interval::point(side);
+        std::array::from_fn(|k| self.foot[k] + self.normal[k] * height)
+    }
 }
 
 /// The common points of D circles or spheres.
@@ -33,7 +41,8 @@ pub(super) enum Pair<const D: usize> {
 /// The direct solutions of `platform` (plane point or translating body) with `legs` locked, where
 /// `intersect` intersects their circles or spheres.
 ///
-/// There are at most two. If intervals cannot tell the sign of `square`, the pair is within rounding of a
+/// There are at most two, and two if `square` is positive. Each then lies in the enclosure of its own formula, so it is proved where the
+/// pose that is found lies in it as well. If intervals cannot tell the sign of `square`, the pair is within rounding of a
 /// parallel singularity; then those candidates are returned whose leg equations hold to rounding.
 pub(super) fn solve<const D: usize>(
     platform: Platform,
@@ -52,14 +61,21 @@ pub(super) fn solve<const D: usize>(
     let height = pair.square.mid().max(0.0).sqrt();
     let mut roots = Roots::none();
     roots.at_most = Some(2);
-    for side in [height, -height] {
-        let start = foot + normal * side;
+    for side in [1.0, -1.0] {
+        let start = foot + normal * (side * height);
         if pair.square.is_positive() {
-            roots.push(polish::<D, D>(platform, legs, start.into()))?;
+            let pose = polish::<D, D>(platform, legs, start.into());
+            let within = pair.point(side).iter().zip(pose).all(|(range, x)| range.contains(x));
+            roots.proved += usize::from(within);
+            roots.push(pose)?;
         } else {
             let start = settled(platform, legs, start, normal.normalize());
             roots.push_if_solution::<D>(platform, legs, polish::<D, D>(platform, legs, start.into()))?;
         }
+    }
+    // What is proved stands first: both are or none.
+    if roots.proved < 2 {
+        roots.proved = 0;
     }
     Ok(roots)
 }
@@ -83,4 +99,70 @@ fn settled<const D: usize>(
         x -= inverse * (level.transpose() * f);
     }
     x
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{certify, circles, spheres};
+    use super::*;
+    use aspecta_robot::Leg;
+    use aspecta_robot::num::Random;
+
+    /// Struts of these lengths from these points.
+    fn struts<const D: usize>(ends: &[([f64; 3], f64)]) -> Vec<Locked> {
+        let leg = |(anchor, length): &([f64; 3], f64)| {
+            let mut leg = Leg::strut([0.0; 2], [0.0; 2]);
+            leg.anchor = anchor.map(Interval::point);
+            Locked::new::<D>(&leg, *length)
+        };
+        ends.iter().map(leg).collect()
+    }
+
+    /// What the formula proves Krawczyk's test proves as well, of random legs and of such that nearly lie in line.
+    fn agrees<const D: usize>(
+        platform: Platform,
+        intersect: fn(&[[Interval; D]; D], &[Interval; D]) -> Pair<D>,
+    ) {
+        let random = &mut Random::new(4);
+        let (mut proved, mut alike) = (0, 0);
+        for case in 0..2000 {
+            let flat = if case % 2 == 0 { 1.0 } else { 1e-3 };
+            let mut end = || {
+                let anchor: [f64; 3] = std::array::from_fn(|k| {
+                    let wide = if k == 0 { 1.0 } else { flat };
+                    if k < D { random.within((-wide, wide)) } else { 0.0 }
+                });
+                (anchor, random.within((0.3, 2.0)))
+            };
+            let ends: Vec<_> = (0..D).map(|_| end()).collect();
+            let legs = struts::<D>(&ends);
+            let Ok(roots) = solve(platform, &legs, intersect) else { continue };
+            if roots.proved == 0 {
+                continue;
+            }
+            assert_eq!((roots.proved, roots.poses.len()), (2, 2));
+            proved += 1;
+            let boxes = roots.poses.iter().map(|&pose| certify::certify::<D, D>(platform, &legs, pose));
+            if let Some(boxes) = boxes.collect::<Option<Vec<_>>>() {
+                assert!(certify::disjoint(platform, &boxes[0], &boxes[1]));
+                alike += 1;
+            }
+        }
+        assert!(proved > 300 && 100 * alike >= 99 * proved, "{proved} {alike}");
+    }
+
+    #[test]
+    fn circles_and_spheres_are_proved_by_their_formula() {
+        agrees(Platform::PlanePoint, circles::intersect);
+        agrees(Platform::TranslatingBody, spheres::intersect);
+    }
+
+    #[test]
+    fn circles_that_touch_prove_nothing() {
+        let legs = struts::<2>(&[([-1.0, 0.0, 0.0], 1.0), ([1.0, 0.0, 0.0], 1.0)]);
+        let roots = solve(Platform::PlanePoint, &legs, circles::intersect).ok().unwrap();
+        assert_eq!((roots.proved, roots.at_most), (0, Some(2)));
+        let apart = struts::<2>(&[([-1.0, 0.0, 0.0], 0.99), ([1.0, 0.0, 0.0], 0.99)]);
+        assert_eq!(solve(Platform::PlanePoint, &apart, circles::intersect).ok().unwrap().at_most, Some(0));
+    }
 }

@@ -31,6 +31,7 @@ mod triangle;
 mod turning_body;
 
 use super::constraints::within_limits;
+use super::jacobian::Matrices;
 use super::singularity::serial_legs;
 use super::{KinematicsError, Solution, check_joints, for_platform};
 use crate::Kinematics;
@@ -179,17 +180,16 @@ pub(crate) fn direct_poses(robot: &Robot, q: &[f64]) -> Result<Poses, Kinematics
 
 fn locked(robot: &Robot, q: &[f64]) -> Result<LockedLegs, KinematicsError> {
     check_joints(robot, q)?;
-    let locked = |(j, leg): (usize, &aspecta_robot::Leg)| {
-        if leg.actuator.forbids(q[j]) {
-            return Err(KinematicsError::StrutLength { leg: LegIndex::new(j), value: q[j] });
+    let in_plane = robot.platform.space() == 2;
+    // Pushed one by one: a collected `Result` would move each of these large values several times.
+    let mut legs = LockedLegs::new();
+    for (j, (leg, &q)) in robot.legs.iter().zip(q).enumerate() {
+        if leg.actuator.forbids(q) {
+            return Err(KinematicsError::StrutLength { leg: LegIndex::new(j), value: q });
         }
-        Ok(if robot.platform.space() == 2 {
-            Locked::new::<2>(leg, q[j])
-        } else {
-            Locked::new::<3>(leg, q[j])
-        })
-    };
-    robot.legs.iter().enumerate().map(locked).collect()
+        legs.push(if in_plane { Locked::new::<2>(leg, q) } else { Locked::new::<3>(leg, q) });
+    }
+    Ok(legs)
 }
 
 /// `prove`: spatial platforms are proved where they are found.
@@ -228,7 +228,7 @@ fn labelled<const D: usize, const N: usize>(
         {
             boxes.push(found);
         }
-        let jacobians = super::jacobian::jacobians::<D, N>(robot, &pose, q);
+        let jacobians = Matrices::<N>::at::<D>(robot, &pose, q);
         let mode = jacobians.mode();
         solutions.push(Solution {
             within_limits: within_limits::<D, N>(robot, &pose)(mode),

@@ -26,6 +26,7 @@
 //! n in all, along which everything is bounded with h_j ∈ [0, h̄_j] as a variable of its own.
 
 mod climb;
+mod coaxial;
 mod determinant;
 mod form;
 mod frame;
@@ -62,6 +63,11 @@ pub(super) fn summitless<const D: usize, const N: usize, const M: usize>(
 ) -> Vec<ClassSet> {
     let found = by_eights::<Found, D, N, M>(robot, paving, scale, asked, |boxes| boxes.look());
     let mut proved: Vec<ClassSet> = found.iter().map(|found| found.proved).collect();
+    if coaxial::folds_up(robot, paving) {
+        for (proved, &(node, classes)) in proved.iter_mut().zip(asked) {
+            *proved |= if coaxial::is_in_the_middle(robot, paving, node) { classes } else { 0 };
+        }
+    }
     // Those left over are looked at once more, side by side with their like: what takes one of them many
     // parts takes as many in all eight.
     let depth = |i: usize| paving.depth_of(asked[i].0);

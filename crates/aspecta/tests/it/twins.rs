@@ -69,6 +69,22 @@ fn rods_in_one_line_part_the_ring() {
     assert!(areas.into_iter().all(|(class, area)| holds(class.measure, class.undecided, area)));
 }
 
+/// Four equal links: where both legs fold up, in the middle, neither motor's angle is determined.
+#[test]
+fn equal_links() {
+    let analysis = analyzed(&coaxial(0.15, 0.15), &[]);
+    assert_eq!(exact(&analysis), [0, 0, 1, 0, 0, 0, 0, 1]);
+    let regular = analysis.classes.iter().filter(|class| class.low > 0);
+    assert!(regular.into_iter().all(|class| holds(class.measure, class.undecided, PI * 0.09)));
+    // Limits can end in the middle: then nothing is said of it.
+    let mut limited = coaxial(0.15, 0.15);
+    let middle = (Interval::point(1.0), Interval::point(0.0));
+    limited.legs[0].limits.push(Limit::ActuatorAngle { middle, half_cos: Interval::point(0.0), turns: 0 });
+    let budget = Budget { boxes: Some(100_000), ..Budget::default() };
+    let open = analyze(&limited, &Options { budget, ..Options::default() }, &Control::unwatched()).unwrap();
+    assert!(open.aspects.low >= 2 && open.aspects.high.is_none(), "{:?}", open.aspects);
+}
+
 /// Limits of one leg: it bends to one side only.
 #[test]
 fn limits_of_one_of_the_legs() {
