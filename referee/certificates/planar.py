@@ -174,6 +174,8 @@ class Robot:
     """A robot whose poses are (x, y), or (x, y, φ) if its platform is a body."""
 
     def __init__(self, value):
+        if isinstance(value, dict) and "rod_angles" in value:
+            raise NotChecked("a robot with limits that two legs share")
         *_, platform, legs, window = keys(value, "name", "title", "source", "length_unit", "platform", "legs", "window")
         if platform not in ("plane-point", "plane-body"):
             raise NotChecked(f"a robot whose platform is a {platform}")

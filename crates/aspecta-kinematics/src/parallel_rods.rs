@@ -67,7 +67,12 @@ pub fn parallel_rods(robot: &Robot, window: &Window) -> Vec<ParallelRods> {
             let near = |other: &ParallelRods| {
                 (Vector3::from(other.centre) - point).norm() <= 1e3 * TOLERANCE * a.rod
             };
-            if legs.len() >= least && !found.iter().any(near) {
+            // Limits may keep two of the rods apart.
+            let kept_apart = robot
+                .rod_angles
+                .iter()
+                .any(|limit| limit.min_cos.is_some() && limit.legs.iter().all(|leg| legs.contains(leg)));
+            if legs.len() >= least && !kept_apart && !found.iter().any(near) {
                 let order = legs.len() + 2 - least;
                 found.push(ParallelRods { legs, centre: point.into(), radius: a.rod, q, order });
             }

@@ -24,6 +24,18 @@ def test_a_robot_survives_its_text_a_pickle_and_a_copy(name: str) -> None:
     assert robot.to_dict()["name"] == name and name in repr(robot) and name in robot._repr_html_()
 
 
+def test_legs_share_a_limit() -> None:
+    legs = [{"anchor": [0, 0], **LEG}, {"anchor": [9, 0], "actuator": {"kind": "revolute", "crank": 5, "rod": 8}}]
+    robot = aspecta.Robot(platform="plane-point", legs=legs, rod_angles=[{"legs": [1, 2], "angle": {"deg": [0, 90]}}])
+    analysis = robot.analyze()
+    assert analysis.exact and analysis.low == 12
+    assert aspecta.Robot.from_toml(robot.to_toml()) == robot
+    beyond = [s.mode for s in robot.ik([4, 7]) if not s.within_limits]
+    assert beyond and all("rods" in name for mode in beyond for name in robot.limits_beyond([4, 7], mode))
+    with pytest.raises(aspecta.Error, match="two different legs"):
+        aspecta.Robot(platform="plane-point", legs=legs, rod_angles=[{"legs": [1, 1], "angle": {"deg": [0, 90]}}])
+
+
 def test_a_robot_is_built_from_its_legs(tmp_path: Path) -> None:
     legs = [{"anchor": np.array([0.0, 0.0]), **LEG}, {"anchor": (9, 0), **LEG}]
     robot = aspecta.Robot(platform="plane-point", legs=legs, name="mine", length_unit="mm", window={"y": [0, 20]})

@@ -65,6 +65,20 @@ pub(crate) mod as_index {
     }
 }
 
+/// [`as_index`] of two legs.
+pub(crate) mod as_indices {
+    use super::LegIndex;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub fn serialize<S: Serializer>(legs: &[LegIndex; 2], serializer: S) -> Result<S::Ok, S::Error> {
+        legs.map(LegIndex::index).serialize(serializer)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[LegIndex; 2], D::Error> {
+        Ok(<[usize; 2]>::deserialize(deserializer)?.map(LegIndex))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -19,6 +19,7 @@ pub mod legs;
 pub mod num;
 mod platform;
 mod postures;
+mod rod_angle;
 mod sizes;
 mod slice;
 mod sound;
@@ -38,6 +39,7 @@ pub use leg::{BASE_FRAME, Frame, Leg, Limit, into_frame, out_of_frame, point};
 pub use leg_index::LegIndex;
 pub use platform::{Coordinate, Platform};
 pub use postures::NoSuchMode;
+pub use rod_angle::{MOST_SHARED, RodAngle};
 pub use sizes::MixedUnits;
 pub use slice::SliceError;
 pub use sound::{Takes, Unsound, holds, sane, takes, usable, wanted};
@@ -75,6 +77,9 @@ pub struct Robot {
     pub platform: Platform,
     /// One leg per degree of freedom.
     pub legs: Vec<Leg>,
+    /// Limits that two legs share.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub rod_angles: Vec<RodAngle>,
     /// Bounds the user sets on pose coordinates: `window[k]` for coordinate k, `None` where free.
     pub window: Vec<Option<(f64, f64)>>,
 }
@@ -146,6 +151,7 @@ impl Robot {
             length_unit: "unit".into(),
             platform,
             window: vec![None; platform.dof()],
+            rod_angles: Vec::new(),
             legs,
         })
     }

@@ -1,5 +1,6 @@
 //! Whether a robot that was read from a file of results (a certificate, a map) makes sense.
 
+use crate::MOST_SHARED;
 use crate::file::is_line;
 use crate::num::{Interval, Scalar, cross, dot};
 use crate::{
@@ -90,7 +91,10 @@ impl Robot {
                 return Err(Unsound::Leg { leg: LegIndex::new(j), what });
             }
         }
-        Ok(())
+        holds(
+            self.rod_angles.len() <= MOST_SHARED && self.rod_angles.iter().all(|limit| limit.fits(self)),
+            "a limit of the angle between two rods makes no sense, or there are too many of them",
+        )
     }
 }
 

@@ -77,6 +77,11 @@ impl LegSet {
         Self(1 << leg.index())
     }
 
+    /// These two legs.
+    pub fn of_two([first, second]: [LegIndex; 2]) -> Self {
+        Self(Self::of(first).0 | Self::of(second).0)
+    }
+
     /// Whether this leg belongs to it.
     pub fn holds(self, leg: LegIndex) -> bool {
         self.0 >> leg.index() & 1 == 1

@@ -7,7 +7,7 @@ mod chain;
 mod kinds;
 
 pub(super) use chain::Links;
-pub(super) use kinds::{constants, joint, slope_per_root};
+pub(super) use kinds::{constants, joint, rod_length, slope_per_root};
 
 use aspecta_robot::chart::Chart;
 use aspecta_robot::num::{Interval, Jet, Scalar};
@@ -45,6 +45,8 @@ pub(super) struct LegState<T> {
     pub slope: T,
     /// ∂f/∂X: translations, then the rotation vector in the base frame.
     pub row: [T; MOST],
+    /// ∂f/∂C in the base, if the platform's origin can move: twice the rod.
+    pub push: [T; 3],
     /// How far inside each limit it is.
     pub limits: Vec<T>,
 }
@@ -214,7 +216,8 @@ impl<'a, T: Scalar, const D: usize> Body<'a, T, D> {
         for (entry, v) in row.iter_mut().zip(&moves).take(self.robot.dof()) {
             *entry = (1..D).fold(f.gradient[0] * v[0], |sum, k| sum + f.gradient[k] * v[k]);
         }
-        LegState { equation: f.value, slope, row, limits }
+        let push = std::array::from_fn(|k| if k < D { row[k] } else { T::zero() });
+        LegState { equation: f.value, slope, row, push, limits }
     }
 
     /// Returns how far inside a limit leg j is: a function of the configuration, positive strictly inside.

@@ -138,7 +138,7 @@ fn settle<const D: usize>(
                 _ => {}
             }
             let climbs = || {
-                place.is_about_fold_of_twins()
+                place.is_about_fold_of_twins(mode)
                     || legs.as_ref().is_none_or(|legs| legs.is_summitless(sign_of(class)))
             };
             if needs.summitless & bit != 0 && (outside || climbs()) {

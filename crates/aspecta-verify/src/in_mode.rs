@@ -92,6 +92,10 @@ impl<'p, 'a, const D: usize> InMode<'p, 'a, D> {
             let values: ArrayVec<Interval, 2> = match constraint {
                 Constraint::Reach(j) => [self.legs[j.index()].reach, self.legs[j.index()].slope].into(),
                 Constraint::Limit(j, k) => [self.legs[j.index()].limits[k]].into_iter().collect(),
+                Constraint::RodAngle(_, k) => {
+                    let limit = &self.place.setting.robot.rod_angles[k];
+                    std::iter::once(self.rod_angle(limit).range).collect()
+                }
                 // Its sign is not the mode's.
                 Constraint::Det => continue,
             };

@@ -56,6 +56,7 @@ mod graph;
 mod in_mode;
 mod links;
 mod place;
+mod rods;
 mod summit;
 #[cfg(test)]
 mod tests;

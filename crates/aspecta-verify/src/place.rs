@@ -121,8 +121,16 @@ impl Posture {
 
     /// Entry i of the leg's row of A where the axes are at their middle: for all q, if the leg is loose.
     pub(super) fn entry_at_middle(&self, i: usize) -> Interval {
-        let there = self.at_middle.row[i];
-        if self.loose { there + self.over.row[i].gradient[OWN] * (self.q - self.middle) } else { there }
+        self.there(self.at_middle.row[i], &self.over.row[i])
+    }
+
+    /// The like of ∂f/∂C.
+    pub(super) fn push_at_middle(&self, k: usize) -> Interval {
+        self.there(self.at_middle.push[k], &self.over.push[k])
+    }
+
+    fn there(&self, at_middle: Interval, over: &Function) -> Interval {
+        if self.loose { at_middle + over.gradient[OWN] * (self.q - self.middle) } else { at_middle }
     }
 }
 

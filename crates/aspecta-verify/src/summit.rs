@@ -143,6 +143,11 @@ impl<const D: usize> InMode<'_, '_, D> {
                     let gradient = of_leg(j.index(), &leg.over.limits[k].gradient);
                     Bound { value: leg.limits[k] / size, gradient, height_of: None }
                 }
+                Constraint::RodAngle(_, k) => {
+                    let angle = self.rod_angle(&setting.robot.rod_angles[k]);
+                    let gradient = joined(&angle.along, &angle.by_joint);
+                    Bound { value: angle.range / size, gradient, height_of: None }
+                }
             }
         };
         let mut all: Vec<Bound> = Constraint::of(setting.robot).map(of).collect();

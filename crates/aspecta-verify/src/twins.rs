@@ -103,27 +103,31 @@ impl<T: Scalar, const D: usize> Body<'_, T, D> {
 }
 
 impl<const D: usize> Place<'_, D> {
-    /// Whether P certainly has no maximum in the box, of whatever class, because both legs of a plane point are one, with links of one length L, and
-    /// fold up there: with r = ‖C − A‖, H = r² (4L² − r²) and ‖c × v‖ = r² grow with r for r² < 2L², r = 0 has H = 0, and nothing else bounds the aspects.
-    pub(super) fn is_about_fold_of_twins(&self) -> bool {
+    /// Whether P certainly has no maximum in the box, in a mode of a plane point whose legs are one, with links of one length L: they fold up where
+    /// r = ‖C − A‖ = 0. H = r² (4L² − r²) and ‖c × v‖ = r² grow with r for r² < 2L², and r = 0 has H = 0; that is all if nothing else bounds the aspects. The
+    /// rods are at an angle with the cosine 1 in one posture, r²/2L² − 1 in opposite ones: beyond a limit of it there is nothing of the mode.
+    pub(super) fn is_about_fold_of_twins(&self, mode: WorkingMode) -> bool {
         let Setting { robot, chart, window, axes, twins, .. } = self.setting;
-        let legs = &robot.legs;
-        let is_bounded = legs.iter().any(|leg| !leg.limits.is_empty())
-            || window.cut.iter().any(|&(first, last)| first || last);
-        let in_poses = robot.platform == Platform::PlanePoint && **chart == Chart::Pose;
-        if !in_poses || twins.is_empty() || axes.len() != 2 || is_bounded {
+        let leg = &robot.legs[0];
+        let in_poses = robot.platform == Platform::PlanePoint && **chart == Chart::Pose && axes.len() == 2;
+        let is_cut = window.cut.iter().any(|&(first, last)| first || last);
+        if !in_poses || twins.is_empty() || is_cut {
             return false;
         }
-        match constants(&legs[0].actuator)[..] {
-            [crank, rod] if crank == rod => {
-                let square = |k: usize| {
-                    let d = self.y[k] + legs[0].attachment[k] - legs[0].anchor[k];
-                    d.square()
-                };
-                (crank.square() + rod.square() - square(0) - square(1)).is_positive()
-            }
-            _ => false,
+        let [crank, rod] = constants(&leg.actuator)[..] else { return false };
+        if crank != rod {
+            return false;
         }
+        let square = |k: usize| (self.y[k] + leg.attachment[k] - leg.anchor[k]).square();
+        let angle = (square(0) + square(1)) / (crank.square() + rod.square()) - Interval::point(1.0);
+        let free = robot.legs.iter().all(|leg| leg.limits.is_empty());
+        let grows = angle.is_negative() && free;
+        if self.setting.vanishes_in(mode) {
+            return grows || robot.rod_angles.iter().any(|limit| limit.min_cos.is_some());
+        }
+        let is_beyond = |max: Interval| angle.hi < max.lo;
+        grows && robot.rod_angles.is_empty()
+            || robot.rod_angles.iter().any(|limit| limit.max_cos.is_some_and(is_beyond))
     }
 }
 

@@ -18,6 +18,7 @@ pub fn print(out: &mut dyn Write, robot: &Robot) -> io::Result<()> {
     for (k, leg) in robot.legs.iter().enumerate() {
         writeln!(out, "  leg {}: {}", k + 1, of_leg(leg, robot))?;
     }
+    robot.rod_angles.iter().try_for_each(|limit| writeln!(out, "  {}", limit.in_words()))?;
     let coordinates = robot.platform.coordinates().iter().zip(&robot.window);
     let cut = coordinates.filter_map(|(c, range)| {
         range.map(|(lo, hi)| format!("{} {} to {}", c.name, number(lo), number(hi)))

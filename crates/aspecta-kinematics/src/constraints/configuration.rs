@@ -1,11 +1,12 @@
 //! The limits of the machine at one configuration.
 
+use super::rods::TwoLegs;
 use super::{Constraint, LegAt, margin, unit};
 use crate::modal::{LegClosure, closures};
 use crate::placement::Placement;
-use aspecta_robot::Robot;
 use aspecta_robot::WorkingMode;
 use aspecta_robot::num::{Interval, Jet, Scalar};
+use aspecta_robot::{LegIndex, Robot};
 
 /// A configuration, or a box of them: the pose and the postures of the legs.
 #[derive(Clone, Copy)]
@@ -32,6 +33,11 @@ impl<'a, T: Scalar, const D: usize, const N: usize> Configuration<'a, T, D, N> {
         self.heights[j][usize::from(self.mode.sign(j) < 0)]
     }
 
+    /// Two legs.
+    fn two(&self, legs: [LegIndex; 2]) -> TwoLegs<'a, T, D> {
+        TwoLegs(legs.map(|j| (self.leg(j.index()), self.height(j.index()))))
+    }
+
     /// Returns how far inside a limit it is; only the sign has a meaning. Of singularities, which need more
     /// than this, nothing is said.
     pub fn margin(&self, constraint: Constraint) -> T {
@@ -42,6 +48,7 @@ impl<'a, T: Scalar, const D: usize, const N: usize> Configuration<'a, T, D, N> {
                 self.height(j.index()),
                 self.placement,
             ),
+            Constraint::RodAngle(legs, k) => self.two(legs).margin(&self.robot.rod_angles[k]),
             Constraint::Reach(_) | Constraint::Det => T::constant(Interval::ENTIRE),
         }
     }
@@ -53,6 +60,7 @@ impl<'a, T: Scalar, const D: usize, const N: usize> Configuration<'a, T, D, N> {
             Constraint::Limit(j, k) => {
                 unit(&self.robot.leg(j).limits[k], &self.leg(j.index()), self.height(j.index()))
             }
+            Constraint::RodAngle(legs, k) => self.two(legs).unit(&self.robot.rod_angles[k]),
             Constraint::Reach(_) | Constraint::Det => T::constant(Interval::ENTIRE),
         }
     }
@@ -73,6 +81,13 @@ impl<'a, T: Scalar, const D: usize, const N: usize> Configuration<'a, T, D, N> {
                 let sh = height(j.index());
                 let (limit, at) = (&self.robot.leg(j).limits[k], LegAt::of(self.robot.leg(j), &leg));
                 (margin(limit, &at, sh, &placement) / unit(limit, &at, sh)).gradient[0]
+            }
+            Constraint::RodAngle(legs, k) => {
+                let closures = legs.map(|j| self.legs[j.index()].map(still));
+                let of =
+                    |i: usize| (LegAt::of(self.robot.leg(legs[i]), &closures[i]), height(legs[i].index()));
+                let (two, limit) = (TwoLegs([of(0), of(1)]), &self.robot.rod_angles[k]);
+                (two.margin(limit) / two.unit(limit)).gradient[0]
             }
             Constraint::Reach(_) | Constraint::Det => U::constant(Interval::ENTIRE),
         }

@@ -89,7 +89,7 @@ fn bend<T: Scalar, const D: usize>(at: &LegAt<'_, T, D>) -> (T, Interval) {
 }
 
 /// The rod's direction in the leg's frame, times [`rod_length`].
-fn rod_direction<T: Scalar, const D: usize>(at: &LegAt<'_, T, D>, sh: T) -> [T; D] {
+pub(super) fn rod_direction<T: Scalar, const D: usize>(at: &LegAt<'_, T, D>, sh: T) -> [T; D] {
     each!(|k| at.closure.fixed[k] + sh * at.closure.swing[k])
 }
 

@@ -14,6 +14,7 @@ mod configuration;
 mod demand;
 mod limit;
 mod margins;
+mod rods;
 mod window;
 
 pub use bound::Bound;

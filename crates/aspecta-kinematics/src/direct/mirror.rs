@@ -38,11 +38,15 @@ pub(super) enum Pair<const D: usize> {
     SelfMotion,
 }
 
+/// How wide an enclosure may be that says where a pose is, relative to half of their distance. Where the centres nearly coincide, or lie in one
+/// line, it is wider than the robot.
+const NARROW: f64 = 1e-9;
+
 /// The direct solutions of `platform` (plane point or translating body) with `legs` locked, where
 /// `intersect` intersects their circles or spheres.
 ///
-/// There are at most two, and two if `square` is positive. Each then lies in the enclosure of its own formula, so it is proved where the
-/// pose that is found lies in it as well. If intervals cannot tell the sign of `square`, the pair is within rounding of a
+/// There are at most two, and two if `square` is positive. Each then lies in the enclosure of its own formula, so it is proved where that is
+/// narrow and the pose that is found lies in it as well. If intervals cannot tell the sign of `square`, the pair is within rounding of a
 /// parallel singularity; then those candidates are returned whose leg equations hold to rounding.
 pub(super) fn solve<const D: usize>(
     platform: Platform,
@@ -64,9 +68,11 @@ pub(super) fn solve<const D: usize>(
     for side in [1.0, -1.0] {
         let start = foot + normal * (side * height);
         if pair.square.is_positive() {
+            let range = pair.point(side);
+            let narrow = range.iter().all(|range| range.width() <= NARROW * height * normal.norm());
             let pose = polish::<D, D>(platform, legs, start.into());
-            let within = pair.point(side).iter().zip(pose).all(|(range, x)| range.contains(x));
-            roots.proved += usize::from(within);
+            let within = range.iter().zip(pose).all(|(range, x)| range.contains(x));
+            roots.proved += usize::from(within && narrow);
             roots.push(pose)?;
         } else {
             let start = settled(platform, legs, start, normal.normalize());
@@ -155,6 +161,16 @@ mod tests {
     fn circles_and_spheres_are_proved_by_their_formula() {
         agrees(Platform::PlanePoint, circles::intersect);
         agrees(Platform::TranslatingBody, spheres::intersect);
+    }
+
+    /// Motors on one axis, almost in one direction: the centres of the circles are 10⁻¹⁰ and less apart.
+    #[test]
+    fn nearly_equal_circles_do_not_prove_where_they_meet() {
+        for gap in [1e-8, 1e-10, 1e-12, 1e-14, 5e-16] {
+            let legs = struts::<2>(&[([0.07, 0.07, 0.0], 0.2), ([0.07 - gap, 0.07 + 0.9 * gap, 0.0], 0.2)]);
+            let Ok(roots) = solve(Platform::PlanePoint, &legs, circles::intersect) else { continue };
+            assert_eq!(roots.proved, 0, "{gap}");
+        }
     }
 
     #[test]

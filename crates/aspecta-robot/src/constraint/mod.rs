@@ -7,7 +7,7 @@ mod scale;
 pub use named::{constraint, if_any};
 pub use scale::Scale;
 
-use crate::leg_index::as_index;
+use crate::leg_index::{as_index, as_indices};
 use crate::{LegIndex, LegSet, Limit, Robot};
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -20,6 +20,8 @@ pub enum Constraint {
     Reach(#[serde(with = "as_index")] LegIndex),
     /// Limit k of leg j.
     Limit(#[serde(with = "as_index")] LegIndex, usize),
+    /// Limit k of those that two legs share: the angle between their rods.
+    RodAngle(#[serde(with = "as_indices")] [LegIndex; 2], usize),
     /// det A.
     Det,
 }
@@ -44,14 +46,15 @@ impl Constraint {
             let reach = (leg.actuator.postures() == 2).then_some(Self::Reach(j));
             reach.into_iter().chain((0..leg.limits.len()).map(move |k| Self::Limit(j, k)))
         };
-        robot.legs.iter().enumerate().flat_map(of_leg).chain([Self::Det])
+        let shared = robot.rod_angles.iter().enumerate().map(|(k, limit)| Self::RodAngle(limit.legs, k));
+        robot.legs.iter().enumerate().flat_map(of_leg).chain(shared).chain([Self::Det])
     }
 
     /// Returns the kind of configuration that it excludes.
     pub fn kind(self) -> Kind {
         match self {
             Self::Reach(j) => Kind::Serial(j),
-            Self::Limit(..) => Kind::Limit,
+            Self::Limit(..) | Self::RodAngle(..) => Kind::Limit,
             Self::Det => Kind::Parallel,
         }
     }
@@ -66,15 +69,16 @@ impl Constraint {
         match self {
             Self::Reach(_) => LegSet::NONE,
             Self::Limit(j, _) => LegSet::of(j),
+            Self::RodAngle(legs, _) => LegSet::of_two(legs),
             Self::Det => LegSet::ALL,
         }
     }
 
-    /// The leg that it is about, if it is about one.
+    /// The leg that it is about, if it is about one alone.
     pub fn leg(self) -> Option<LegIndex> {
         match self {
             Self::Reach(j) | Self::Limit(j, _) => Some(j),
-            Self::Det => None,
+            Self::RodAngle(..) | Self::Det => None,
         }
     }
 
@@ -83,6 +87,7 @@ impl Constraint {
         match self {
             Self::Reach(j) => j.index(),
             Self::Limit(j, k) => j.index() + k,
+            Self::RodAngle([j, _], k) => j.index() + k + 1,
             Self::Det => 0,
         }
     }
@@ -93,7 +98,7 @@ impl Constraint {
             Self::Limit(j, k) => {
                 matches!(robot.leg(j).limits[k], Limit::ActuatorAngle { .. } | Limit::ActuatorLength { .. })
             }
-            Self::Reach(_) | Self::Det => false,
+            Self::Reach(_) | Self::RodAngle(..) | Self::Det => false,
         }
     }
 
@@ -101,7 +106,7 @@ impl Constraint {
     pub fn named(self, robot: &Robot) -> String {
         match self {
             Self::Limit(j, k) => format!("{} limit of leg {j}", robot.leg(j).limits[k].joint()),
-            Self::Reach(_) | Self::Det => self.to_string(),
+            Self::Reach(_) | Self::RodAngle(..) | Self::Det => self.to_string(),
         }
     }
 }
@@ -112,6 +117,7 @@ impl fmt::Display for Constraint {
         match self {
             Self::Reach(j) => write!(f, "H_{j}"),
             Self::Limit(j, k) => write!(f, "joint limit {} of leg {j}", k + 1),
+            Self::RodAngle([i, j], _) => write!(f, "limit of the angle between the rods of legs {i} and {j}"),
             Self::Det => f.write_str("det A"),
         }
     }

@@ -16,6 +16,10 @@ enum Named {
         leg: LegIndex,
         limit: usize,
     },
+    #[serde(rename = "rod angle")]
+    RodAngle {
+        legs: [LegIndex; 2],
+    },
 }
 
 impl From<Constraint> for Named {
@@ -24,6 +28,7 @@ impl From<Constraint> for Named {
             Constraint::Det => Self::Det,
             Constraint::Reach(leg) => Self::Reach { leg },
             Constraint::Limit(leg, limit) => Self::Limit { leg, limit: limit + 1 },
+            Constraint::RodAngle(legs, _) => Self::RodAngle { legs },
         }
     }
 }

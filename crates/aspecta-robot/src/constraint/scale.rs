@@ -17,13 +17,21 @@ pub struct Scale {
     pub reach: Vec<f64>,
     /// The scales of the limits, per leg.
     pub limits: Vec<Vec<f64>>,
+    /// The scales of limits that two legs share.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub rod_angles: Vec<f64>,
 }
 
 impl Scale {
     /// Every constraint divided by one.
     pub fn ones(robot: &Robot) -> Self {
         let limits = robot.legs.iter().map(|leg| vec![1.0; leg.limits.len()]).collect();
-        Self { det: 1.0, reach: vec![1.0; robot.dof()], limits }
+        Self {
+            det: 1.0,
+            reach: vec![1.0; robot.dof()],
+            limits,
+            rod_angles: vec![1.0; robot.rod_angles.len()],
+        }
     }
 }
 
@@ -34,6 +42,7 @@ impl Index<Constraint> for Scale {
         match constraint {
             Constraint::Reach(j) => &self.reach[j.index()],
             Constraint::Limit(j, k) => &self.limits[j.index()][k],
+            Constraint::RodAngle(_, k) => &self.rod_angles[k],
             Constraint::Det => &self.det,
         }
     }
@@ -44,6 +53,7 @@ impl IndexMut<Constraint> for Scale {
         match constraint {
             Constraint::Reach(j) => &mut self.reach[j.index()],
             Constraint::Limit(j, k) => &mut self.limits[j.index()][k],
+            Constraint::RodAngle(_, k) => &mut self.rod_angles[k],
             Constraint::Det => &mut self.det,
         }
     }

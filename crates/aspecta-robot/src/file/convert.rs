@@ -40,6 +40,7 @@ pub(super) fn robot(file: &RobotFile, text: &str) -> Result<Robot, Fault> {
             robot.window[k] = Some(bounds);
         }
     }
+    robot.rod_angles = context.rod_angles(file)?;
     check_reach(file, &robot)?;
     Ok(robot)
 }

@@ -163,9 +163,23 @@ pub(super) struct RobotFile {
     /// The legs, in the order of the joint coordinates.
     #[serde(default)]
     pub legs: Vec<At<LegTable>>,
+    /// Limits that two legs share: the angle between their rods.
+    #[serde(default)]
+    pub rod_angles: Vec<At<RodAngleTable>>,
     /// Bounds on pose coordinates, within what the legs reach.
     #[serde(default)]
     pub window: WindowTable,
+}
+
+/// The range of the angle between the rods of two legs, within 0° to 180°.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, expecting = "a limit of the angle between two rods")]
+pub(super) struct RodAngleTable {
+    /// The numbers of the two legs, from 1.
+    #[schemars(length(min = 2, max = 2))]
+    pub legs: At<Vec<Number>>,
+    /// The range.
+    pub angle: At<Angle<Pair>>,
 }
 
 /// A leg: it ties the point A of the base to the point C of the platform.
@@ -269,6 +283,8 @@ pub(super) fn hint(key: &str) -> &'static str {
         "direction" => "give the direction of the rail, direction = […]",
         "axis" => "give the direction of the axis, axis = […]",
         "zero" => "say where the crank points at q = 0, zero = […]",
+        "legs" => "name the two legs, legs = [1, 2]",
+        "angle" => "give the range of the angle between their rods, angle = { deg = [15, 165] }",
         "within" => "give the cone's half-angle, within = { deg = … }",
         "deg" => "give the range in the plane, { deg = [min, max] }",
         _ => "give the angle of the link, { deg = … }",

@@ -2,12 +2,14 @@
 
 use super::convert::Context;
 use super::error::Problem;
-use super::format::{Angle, At, JointTable, LimitsTable, Pair, Range, hint};
+use super::format::{
+    Angle, At, JointTable, LimitsTable, Number, Pair, Range, RobotFile, RodAngleTable, hint,
+};
 use super::locate::Fault;
 use crate::frame::{into, unit};
 use crate::legs::Kind;
 use crate::num::Interval;
-use crate::{Leg, Limit};
+use crate::{Leg, LegIndex, Limit, MOST_SHARED, RodAngle};
 
 type Cone = ([Interval; 3], Interval);
 
@@ -77,6 +79,61 @@ impl Context<'_> {
             return Err(Fault::new(&range.span, problem));
         }
         Ok(Limit::SpatialElbow { min_cos: unit.cos_sin(min).0, max_cos: unit.cos_sin(max).0 })
+    }
+
+    /// The limits that two legs share.
+    pub fn rod_angles(&self, file: &RobotFile) -> Result<Vec<RodAngle>, Fault> {
+        let one = |table: &At<RodAngleTable>| {
+            let legs = self.two_legs(file, &table.value.legs)?;
+            let Angle { unit, .. } = table.value.angle.value;
+            let span = &table.value.angle.span;
+            let (min, max) = self.turn(&table.value.angle.value, span)?;
+            if min.lo < 0.0 || max.lo > unit.half_turn() {
+                let problem =
+                    Problem::AngleOutOfRange { what: "an angle between rods", range: "from 0° to 180°" };
+                return Err(Fault::new(span, problem));
+            }
+            let is_whole = |x: Interval| x.hi >= unit.half_turn();
+            let min_cos = (min.hi > 0.0).then(|| unit.cos_sin(min).0);
+            let max_cos = (!is_whole(max)).then(|| unit.cos_sin(max).0);
+            if min_cos.is_none() && max_cos.is_none() {
+                let reason = "the angle between two rods is never below 0° or above 180°: this limits nothing, leave it out";
+                return Err(Fault::new(span, out_of_place(reason)));
+            }
+            Ok(RodAngle { legs, min_cos, max_cos })
+        };
+        if file.rod_angles.len() > MOST_SHARED {
+            let reason = format!("a robot has at most {MOST_SHARED} of these limits");
+            return Err(Fault::new(&file.rod_angles[MOST_SHARED].span, out_of_place(&reason)));
+        }
+        file.rod_angles.iter().map(one).collect()
+    }
+
+    /// Two legs with rods, told by their numbers.
+    fn two_legs(&self, file: &RobotFile, numbers: &At<Vec<Number>>) -> Result<[LegIndex; 2], Fault> {
+        let count = file.legs.len();
+        let leg = |number: &Number| {
+            let x = number.value.0;
+            let known = x >= 1.0 && x <= count as f64 && x == x.trunc();
+            if !known {
+                let reason = format!("there is no such leg: give two numbers from 1 to {count}");
+                return Err(Fault::new(&number.span, out_of_place(&reason)));
+            }
+            let index = x as usize - 1;
+            let kind = file.legs[index].value.actuator.value.kind.value;
+            if !kind.facts().has_rod || kind.facts().is_positive {
+                let reason = format!("leg {x} is a `{}` leg, which has no rod", kind.name());
+                return Err(Fault::new(&number.span, out_of_place(&reason)));
+            }
+            Ok(LegIndex::new(index))
+        };
+        match &numbers.value[..] {
+            [first, second] if first.value.0 != second.value.0 => Ok([leg(first)?, leg(second)?]),
+            _ => {
+                let reason = format!("name two different legs, legs = [1, {count}]");
+                Err(Fault::new(&numbers.span, out_of_place(&reason)))
+            }
+        }
     }
 
     /// A unit vector and the cosine of a half-angle about it.

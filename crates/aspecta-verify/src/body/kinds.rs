@@ -40,6 +40,14 @@ pub(crate) fn constants(actuator: &Actuator) -> Vec<Interval> {
     }
 }
 
+/// The length of the rod, if it has one.
+pub(crate) fn rod_length(actuator: &Actuator) -> Option<Interval> {
+    match *actuator {
+        Actuator::Revolute(Revolute { rod, .. }) | Actuator::Prismatic(Prismatic { rod }) => Some(rod),
+        Actuator::Strut(_) | Actuator::Spherical(_) => None,
+    }
+}
+
 /// |∂f/∂q| per √H.
 pub(crate) fn slope_per_root(actuator: &Actuator) -> f64 {
     match actuator {

@@ -126,10 +126,12 @@ impl Certificate {
         let scale = &self.scale;
         wanted("scale.reach", scale.reach.len(), n)?;
         wanted("scale.limits", scale.limits.len(), n)?;
+        wanted("scale.rod_angles", scale.rod_angles.len(), self.robot.rod_angles.len())?;
         for (leg, scales) in self.robot.legs.iter().zip(&scale.limits) {
             wanted("scale.limits of a leg", scales.len(), leg.limits.len())?;
         }
-        let mut all = scale.limits.iter().flatten().chain(&scale.reach).chain([&scale.det]);
+        let limits = scale.limits.iter().flatten().chain(&scale.rod_angles);
+        let mut all = limits.chain(&scale.reach).chain([&scale.det]);
         holds(
             all.all(|x| x.is_normal() && *x > 0.0),
             "a scale is not a positive number: P would not vanish at the boundary",

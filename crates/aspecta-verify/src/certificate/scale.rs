@@ -23,6 +23,8 @@ impl Certificate {
                     let leg = self.robot.leg(j);
                     limit(leg, &leg.limits[k], &self.window)
                 }
+                // Two differences of cosines.
+                Constraint::RodAngle(..) => 4.0,
             };
             // A function whose magnitudes are none has the scale 1.
             let (value, most) = (self.scale[constraint], (ROOM * greatest).max(1.0));
@@ -40,6 +42,7 @@ fn key(constraint: Constraint) -> String {
         Constraint::Det => "scale.det".into(),
         Constraint::Reach(j) => format!("scale.reach[{}]", j.index()),
         Constraint::Limit(j, k) => format!("scale.limits[{}][{k}]", j.index()),
+        Constraint::RodAngle(_, k) => format!("scale.rod_angles[{k}]"),
     }
 }
 

@@ -1,6 +1,7 @@
 //! Faults planted at random in certificates with sheets of all kinds: none is accepted.
 
 use super::*;
+use aspecta_robot::RodAngle;
 use aspecta_robot::chart::Chart;
 use aspecta_robot::num::Random;
 use std::collections::BTreeMap;
@@ -32,6 +33,13 @@ fn coaxial() -> Robot {
     Robot::new("coaxial", Platform::PlanePoint, vec![leg.clone(), leg]).unwrap()
 }
 
+/// The rods of a five-bar kept from 40° to 120° apart.
+fn printer() -> Robot {
+    let [min_cos, max_cos] = [40.0f64, 120.0].map(|angle| Some(Interval::decimal(angle.to_radians().cos())));
+    let legs = [0, 1].map(LegIndex::new);
+    Robot { rod_angles: vec![RodAngle { legs, min_cos, max_cos }], ..five_bar() }
+}
+
 /// In the plane: checked at once.
 fn quick() -> Vec<Certificate> {
     vec![
@@ -39,6 +47,8 @@ fn quick() -> Vec<Certificate> {
         coarse(&folding("five-bar", 6.0), &[], "++", 7),
         coarse(&folding("3-rrr", 10.0), &[(2, 0.1)], "+++", 6),
         coarse(&coaxial(), &[], "+-", 6),
+        coarse(&printer(), &[], "+-", 7),
+        coarse(&printer(), &[], "--", 6),
         coarse(&coaxial(), &[], "++", 6),
     ]
 }
@@ -70,7 +80,7 @@ fn any_leaf<'a>(
 }
 
 /// How many kinds of faults there are; as many certificates have no divisor in common with it.
-const KINDS: usize = 11;
+const KINDS: usize = 12;
 
 /// Plants a fault, by number; its name, or nothing if the certificate has no place for it.
 fn plant(certificate: &mut Certificate, fault: usize, random: &mut Random) -> Option<&'static str> {
@@ -139,6 +149,11 @@ fn plant(certificate: &mut Certificate, fault: usize, random: &mut Random) -> Op
             Some("a seam of another class")
         }
         9 => {
+            let limit = certificate.robot.rod_angles.first_mut()?;
+            limit.max_cos = Some(Interval::decimal(0.2));
+            Some("another limit of two legs")
+        }
+        10 => {
             let (lo, hi) = certificate.window.ranges[0];
             let further = 0.1 * (hi - lo);
             let anchor = &mut certificate.robot.legs[0].anchor[0];
@@ -164,7 +179,7 @@ fn holds(sheet: &crate::certificate::Sheet, fits: impl Fn(&Leaf) -> bool) -> boo
 #[test]
 fn no_planted_fault_is_accepted() {
     // In none of these a chart covers a box.
-    plant_all(&quick(), 33, KINDS - 1);
+    plant_all(&quick(), 42, KINDS - 1);
 }
 
 #[test]

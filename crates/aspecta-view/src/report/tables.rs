@@ -36,6 +36,7 @@ pub fn legs(analysis: &Analysis) -> Markup {
                 td.reason { @if report.cuspidal { "yes: " } @else { "no: " } (report.reason) }
             } } }
         }
+        @for limit in &robot.rod_angles { p { "Limit: " (limit.in_words()) "." } }
     }
 }
 

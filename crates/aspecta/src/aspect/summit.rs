@@ -65,7 +65,7 @@ pub(super) fn summitless<const D: usize, const N: usize, const M: usize>(
     let mut proved: Vec<ClassSet> = found.iter().map(|found| found.proved).collect();
     if coaxial::folds_up(robot, paving) {
         for (proved, &(node, classes)) in proved.iter_mut().zip(asked) {
-            *proved |= if coaxial::is_in_the_middle(robot, paving, node) { classes } else { 0 };
+            *proved |= classes & coaxial::summitless_in_the_middle(robot, paving, node);
         }
     }
     // Those left over are looked at once more, side by side with their like: what takes one of them many

@@ -24,6 +24,7 @@ mod paper;
 mod paving;
 mod random;
 mod robot_files;
+mod rod_angles;
 mod singularity;
 mod slice_domains;
 mod slices;

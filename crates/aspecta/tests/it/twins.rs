@@ -5,7 +5,7 @@ use aspecta::Kinematics;
 use aspecta::aspect::{Analysis, Options, SingularMode, analyze};
 use aspecta::num::Interval;
 use aspecta::paving::{Budget, Control};
-use aspecta::robot::{Leg, LegIndex, Limit, Platform, Robot, catalogue};
+use aspecta::robot::{Leg, LegIndex, Limit, Platform, Robot, RodAngle, catalogue};
 use aspecta::verify::verify;
 use std::f64::consts::PI;
 
@@ -76,7 +76,18 @@ fn equal_links() {
     assert_eq!(exact(&analysis), [0, 0, 1, 0, 0, 0, 0, 1]);
     let regular = analysis.classes.iter().filter(|class| class.low > 0);
     assert!(regular.into_iter().all(|class| holds(class.measure, class.undecided, PI * 0.09)));
-    // Limits can end in the middle: then nothing is said of it.
+    // Rods that may not be in line keep it from the middle: the cosine of their angle is r²/2L² − 1.
+    let mut printer = coaxial(0.15, 0.15);
+    let cosines = [15.0f64, 165.0].map(|angle| Some(Interval::decimal(angle.to_radians().cos())));
+    let legs = [LegIndex::new(0), LegIndex::new(1)];
+    printer.rod_angles.push(RodAngle { legs, min_cos: cosines[0], max_cos: cosines[1] });
+    let analysis = analyzed(&printer, &[]);
+    assert_eq!(exact(&analysis), [0, 0, 1, 0, 0, 0, 0, 1]);
+    assert!(analysis.singular_modes.iter().all(|found| (found.low, found.high) == (0, Some(0))));
+    let ring = 2.0 * PI * 0.15f64.powi(2) * (15.0f64.to_radians().cos() - 165.0f64.to_radians().cos());
+    let regular = analysis.classes.iter().filter(|class| class.low > 0);
+    assert!(regular.into_iter().all(|class| holds(class.measure, class.undecided, ring)));
+    // Limits of a motor can end in the middle: then nothing is said of it.
     let mut limited = coaxial(0.15, 0.15);
     let middle = (Interval::point(1.0), Interval::point(0.0));
     limited.legs[0].limits.push(Limit::ActuatorAngle { middle, half_cos: Interval::point(0.0), turns: 0 });

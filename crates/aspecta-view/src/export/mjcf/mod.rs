@@ -11,7 +11,7 @@ mod leg;
 use crate::figure::skeleton::{Point, Skeleton};
 use aspecta::kinematics::Solution;
 use aspecta::num::Interval;
-use aspecta::robot::{Platform, Robot};
+use aspecta::robot::{Platform, Robot, RodAngle};
 use element::Element;
 use leg::Limb;
 
@@ -47,7 +47,9 @@ pub fn model(robot: &Robot, start: &Solution) -> String {
 
 /// The limits of the robot that its model does not have, as `elbow of leg 1`.
 pub fn left_out(robot: &Robot) -> Vec<String> {
-    leg::left_out(&robot.legs)
+    let of =
+        |limit: &RodAngle| format!("angle between the rods of legs {} and {}", limit.legs[0], limit.legs[1]);
+    leg::left_out(&robot.legs).into_iter().chain(robot.rod_angles.iter().map(of)).collect()
 }
 
 /// Constraints are as stiff as time steps of 1 ms allow.

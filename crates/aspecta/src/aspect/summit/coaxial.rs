@@ -2,32 +2,37 @@
 //!
 //! With d = C − A, r = ‖d‖ and L = M, H = r² (4L² − r²) for both legs and G = ±r², G being what is left of det A
 //! ([`ModalRows::parted`](aspecta_kinematics::modal::ModalRows::parted)): all of them grow along the field d wherever 0 < r² < 2L², and r = 0 has H = 0. So there is no
-//! summit with r² < 2L² if nothing else bounds the aspects. No box round r = 0 is ever decided by what is evaluated there.
+//! summit with r² < 2L² if nothing else bounds the aspects. The cosine of the angle between the rods is 1 where the legs are in one posture, and
+//! r²/2L² − 1 in opposite ones: where that is beyond its limit there is nothing of the class. No box round r = 0 is ever decided by what is
+//! evaluated there.
 
-use crate::paving::Paving;
+use crate::paving::{ClassSet, Paving};
 use aspecta_kinematics::chart::Chart;
-use aspecta_kinematics::constraints::is_limited;
 use aspecta_robot::num::{Interval, Scalar};
 use aspecta_robot::{Platform, Robot};
 
 /// Whether a robot is one of these, all of whose workspace is looked at.
 pub(super) fn folds_up(robot: &Robot, paving: &Paving) -> bool {
     let equal = robot.legs[0].actuator.as_revolute().is_some_and(|leg| leg.crank == leg.rod);
-    let whole = paving.chart == Chart::Pose
-        && !is_limited(robot)
-        && paving.window.cut.iter().all(|cut| *cut == (false, false));
-    robot.platform == Platform::PlanePoint
-        && equal
-        && !paving.twins.is_empty()
-        && whole
-        && paving.axes.len() == 2
+    let uncut = paving.window.cut.iter().all(|cut| *cut == (false, false));
+    let whole = paving.chart == Chart::Pose && uncut && paving.axes.len() == 2;
+    robot.platform == Platform::PlanePoint && equal && !paving.twins.is_empty() && whole
 }
 
-/// Whether r² < 2L² all over a box of such a robot.
-pub(super) fn is_in_the_middle(robot: &Robot, paving: &Paving, node: u32) -> bool {
+/// The classes of such a robot that have no summit in a box, for these reasons.
+pub(super) fn summitless_in_the_middle(robot: &Robot, paving: &Paving, node: u32) -> ClassSet {
     let leg = &robot.legs[0];
-    let Some(links) = leg.actuator.as_revolute() else { return false };
+    let Some(links) = leg.actuator.as_revolute() else { return 0 };
     let extent = paving.extent(node);
     let d = |k: usize| extent[k] + leg.attachment[k] - leg.anchor[k];
-    (links.crank.square() * Interval::point(2.0) - d(0).square() - d(1).square()).is_positive()
+    let cosine = (d(0).square() + d(1).square()) / (links.crank.square() * Interval::point(2.0))
+        - Interval::point(1.0);
+    let grows = cosine.is_negative() && robot.legs.iter().all(|leg| leg.limits.is_empty());
+    let limits = &robot.rod_angles;
+    let is_beyond = |max: Interval| (max - cosine).is_positive();
+    let in_one_posture = grows || limits.iter().any(|limit| limit.min_cos.is_some());
+    let in_opposite_ones =
+        grows && limits.is_empty() || limits.iter().any(|limit| limit.max_cos.is_some_and(is_beyond));
+    let none = |m: &usize| if paving.vanishes_in(*m) { in_one_posture } else { in_opposite_ones };
+    (0..paving.modes.len()).filter(none).fold(0, |set, m| set | 3 << (2 * m))
 }
