@@ -186,6 +186,34 @@ def test_a_pitch_of_a_right_angle_gives_a_rotation_back() -> None:
     assert np.allclose(poses.rotation_from_rpy(poses.rpy_from_rotation(rotation)), rotation)
 
 
+def test_quaternions_give_poses_by_their_order() -> None:
+    angles = np.array([0.3, -0.4, 1.2])
+    rotation = poses.rotation_from_rpy(angles)
+    assert poses.is_rotation(rotation) and not poses.is_rotation(-rotation) and not poses.is_rotation(2 * rotation)
+    w = np.sqrt(1 + np.trace(rotation)) / 2
+    skew = rotation - rotation.T
+    xyz = np.array([skew[2, 1], skew[0, 2], skew[1, 0]]) / (4 * w)
+    for given in ({"wxyz": [w, *xyz]}, {"xyzw": [*xyz, w]}):
+        assert np.allclose(poses.from_quaternion("free-body", [1, 2, 3], **given), [1, 2, 3, *angles])
+        assert np.allclose(poses.from_quaternion("turning-body", None, **given), angles)
+    with pytest.raises(aspecta.Error, match="give the positions"):
+        poses.from_quaternion("free-body", None, wxyz=[1, 0, 0, 0])
+
+
+def test_orientations_along_a_path_turn_least() -> None:
+    near = np.array([[0.1, 0.2, 3.1], [0.1, 0.2, -3.1], [0.1 + np.pi, np.pi - 0.2, -3.1 + np.pi]])
+    turned = poses.nearest("turning-body", near)
+    assert np.allclose(turned[1], [0.1, 0.2, 2 * np.pi - 3.1]) and np.allclose(turned[2], turned[1])
+    assert np.allclose(poses.nearest("turning-body", near[:1], before=[0.1, 0.2, -3.1]), [[0.1, 0.2, 3.1 - 2 * np.pi]])
+    assert poses.nearest("plane-body", near) is near
+
+
+def test_a_mask_keeps_solutions_and_rows() -> None:
+    found = aspecta.Robot("five-bar").ik(np.array([[4.0, 7.0], [3.0, 8.0]]))
+    kept = found.only(found.det_a > 0)
+    assert (kept.det_a > 0).all() and 0 < len(kept.det_a) < len(found.det_a) and len(kept) == len(found) == 2
+
+
 def test_the_command_comes_with_the_package() -> None:
     assert command("--version").stdout == f"aspecta {aspecta.__version__}\n"
     refused = command("ik", "five-bar", "--pose", "1,2,3")
