@@ -107,5 +107,10 @@ fn is_same(a: &Robot, b: &Robot) -> bool {
         }
         legs
     };
-    (a.platform, legs(a), &a.window) == (b.platform, legs(b), &b.window)
+    let shared = |robot: &Robot| {
+        let mut shared = robot.rod_angles.clone();
+        shared.iter_mut().for_each(|limit| limit.legs.sort_unstable());
+        shared
+    };
+    (a.platform, legs(a), shared(a), &a.window) == (b.platform, legs(b), shared(b), &b.window)
 }

@@ -82,6 +82,29 @@ fn a_certificate_of_another_robot_does_not_do() {
     assert!(String::from_utf8_lossy(&output.stderr).contains("not the robot `2-prr`"));
 }
 
+/// A limit that two legs share is part of the robot, in whatever order they are named.
+#[test]
+fn a_certificate_of_a_robot_with_other_limits_does_not_do() {
+    let directory = tempfile::tempdir().unwrap();
+    let five_bar = stdout("robots show five-bar");
+    let limited = |name: &str, legs: &str, max: u32| {
+        let path = directory.path().join(name);
+        let limit = format!("[[rod-angles]]\nlegs = {legs}\nangle = {{ deg = [15, {max}] }}\n");
+        std::fs::write(&path, format!("{five_bar}\n{limit}")).unwrap();
+        path.display().to_string()
+    };
+    let robot = limited("a.toml", "[1, 2]", 120);
+    let path = directory.path().join("a.json");
+    stdout(&format!("analyze {robot} --mode=+- --budget depth=6 --certificate {}", path.display()));
+    let status =
+        |robot: &str| aspecta("verify --robot").args([robot]).arg(&path).output().unwrap().status.code();
+    assert_eq!(status(&robot), Some(0));
+    assert_eq!(status(&limited("c.toml", "[2, 1]", 120)), Some(0));
+    for other in ["five-bar", &limited("b.toml", "[1, 2]", 121)] {
+        assert_eq!(status(other), Some(1), "{other}");
+    }
+}
+
 #[test]
 fn what_cannot_be_read_is_bad_input() {
     let directory = tempfile::tempdir().unwrap();
