@@ -139,6 +139,16 @@ impl<T: Scalar, const N: usize> ModalRows<T, N> {
         rows
     }
 
+    /// The weights that the rows of [`ModalRows::parted`] are multiplied by: what stands in place of the second of two legs that are one is
+    /// a polynomial, and has none.
+    pub fn weights_of_parted<const D: usize>(
+        twins: &[[LegIndex; 2]],
+        legs: &[LegClosure<T, D>; N],
+    ) -> impl Iterator<Item = T> {
+        let is_second = |j: usize| twins.iter().any(|[_, second]| second.index() == j);
+        (0..N).filter(move |&j| !is_second(j)).map(|j| legs[j].closure.weight)
+    }
+
     /// Row j of A in posture s = `sign`, times the leg's weight.
     pub fn row(&self, j: usize, sign: i8) -> [T; N] {
         let (a, b) = (&self.fixed[j], &self.swing[j]);

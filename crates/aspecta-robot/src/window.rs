@@ -153,6 +153,11 @@ impl Window {
         if lo.is_finite() && hi.is_finite() { Ok(()) } else { Err(unbounded()) }
     }
 
+    /// Whether the user's window cuts the workspace somewhere.
+    pub fn is_cut(&self) -> bool {
+        self.cut.iter().any(|&(first, last)| first || last)
+    }
+
     /// The coordinates that are held at a value, and the values (see [`Robot::slice`]).
     pub fn held(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         self.ranges.iter().enumerate().filter(|(_, r)| r.0 == r.1).map(|(k, r)| (k, r.0))

@@ -27,7 +27,7 @@ fn angles_of(actuator: &Actuator) -> [(Interval, Interval); 2] {
 /// The chart for a platform that turns about a point, if `window` holds all its orientations. Where legs are one and the same there is
 /// none: of their determinant a factor is taken out that is no function of its coordinates ([`ModalRows::parted`](crate::modal::ModalRows::parted)).
 pub(super) fn of(robot: &Robot, window: &Window) -> Option<Chain> {
-    let whole = window.cut.iter().all(|&cut| cut == (false, false)) && window.held().next().is_none();
+    let whole = !window.is_cut() && window.held().next().is_none();
     let spherical = robot.legs.first()?.actuator.as_spherical().is_some();
     (robot.platform == Platform::TurningBody && spherical && whole && robot.twins().is_empty())
         .then_some(Chain { leg: LegIndex::new(0), bend: None })

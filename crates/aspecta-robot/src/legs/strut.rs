@@ -78,11 +78,11 @@ impl LegKind for Strut {
         q + q
     }
 
-    /// In q², which is smooth in d.
     fn constants(&self) -> Vec<Interval> {
         Vec::new()
     }
 
+    /// In q², which is smooth in d.
     fn length_margin<T: Scalar, const D: usize>(&self, d: &[T; D], _: T, min: Interval, max: Interval) -> T {
         let q2 = sum_of_squares(d);
         (q2 - T::constant(min.square())) * (T::constant(max.square()) - q2)

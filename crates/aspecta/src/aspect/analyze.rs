@@ -182,15 +182,13 @@ impl Pass {
         let paving = &atlas.sheets[0];
         let mut found = work::map(&counted, |(class, counted)| Found::new(&atlas, *class, counted));
         let mut singular_modes = Vec::new();
-        for ((class, _), found) in
-            counted.iter().zip(&mut found).filter(|(c, _)| c.0.bit & paving.vanishing() != 0)
-        {
+        for ((class, _), found) in counted.iter().zip(&mut found).filter(|(c, _)| c.0.vanishes()) {
             let domains = std::mem::replace(found, Found::none(*class)).class;
             if domains.det_a == DetSign::Positive {
                 singular_modes.extend(SingularMode::new(robot, domains));
             }
         }
-        let in_doubt = counted.iter().filter(|(class, _)| class.bit & paving.vanishing() == 0);
+        let in_doubt = counted.iter().filter(|(class, _)| !class.vanishes());
         Self {
             found,
             singular_modes,

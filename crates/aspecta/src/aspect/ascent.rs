@@ -39,6 +39,11 @@ impl Class {
         [(signs[0], 1 << (2 * m)), (signs[1], 2 << (2 * m))].map(|(sign, bit)| Self { mode, sign, bit })
     }
 
+    /// Whether det A vanishes identically in its mode.
+    pub(super) fn vanishes(self) -> bool {
+        self.sign == 0
+    }
+
     pub(super) fn det_a(self) -> DetSign {
         if self.bit.trailing_zeros().is_multiple_of(2) { DetSign::Positive } else { DetSign::Negative }
     }

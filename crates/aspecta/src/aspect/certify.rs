@@ -11,13 +11,12 @@ use aspecta_verify::certificate::{
 
 /// Returns the certificate of all that the bounds rest on.
 pub(super) fn certificate(atlas: &Atlas<'_>, counted: &[(Class, Counted)]) -> Certificate {
-    let vanishing = atlas.sheets[0].vanishing();
-    let claim = |(class, c): &(Class, Counted)| match class.bit & vanishing {
-        0 => Claim { low: c.low(), high: c.high() },
-        _ => Claim { low: 0, high: Some(0) },
+    let claim = |(class, c): &(Class, Counted)| match class.vanishes() {
+        false => Claim { low: c.low(), high: c.high() },
+        true => Claim { low: 0, high: Some(0) },
     };
     let claims = counted.iter().map(claim).collect();
-    let counted = || counted.iter().filter(|(class, _)| class.bit & vanishing == 0);
+    let counted = || counted.iter().filter(|(class, _)| !class.vanishes());
     let index = |class: &Class| class.bit.trailing_zeros() as usize;
     let joins = counted().flat_map(|(class, c)| {
         c.joins.iter().map(|join| Join { class: index(class), sheet: join.sheet, path: join.points.clone() })

@@ -36,9 +36,8 @@ pub(super) fn no_local_maximum<const D: usize, const N: usize, const M: usize>(
     }
     let heights = std::array::from_fn(|j| legs[j].heights()[0]);
     let mut det = ModalRows::<Second<M>, N>::parted(robot, &paving.twins, &legs, heights).det(mode);
-    let is_second = |j: usize| paving.twins.iter().any(|[_, second]| second.index() == j);
-    for (_, leg) in legs.iter().enumerate().filter(|(j, _)| !is_second(*j)) {
-        det = det / leg.closure.weight;
+    for weight in ModalRows::weights_of_parted(&paving.twins, &legs) {
+        det = det / weight;
     }
     let hessian = |i: usize, j: usize| det.gradient[i].gradient[j];
     let middle = SMatrix::<f64, M, M>::from_fn(|i, j| hessian(i, j).mid());

@@ -43,8 +43,6 @@ fn sample<const D: usize, const N: usize>(robot: &Robot, window: &Window, modes:
         .map(|constraint| (constraint, Mean::default()))
         .collect();
     let (axes, twins) = (window.axes(), robot.twins());
-    // Their rows are polynomials, and not divided by the weight.
-    let is_second = |j: usize| twins.iter().any(|[_, second]| second.index() == j);
     for index in 0..SAMPLES.pow(axes.len() as u32) {
         let mut pose: [f64; N] = std::array::from_fn(|k| window.ranges[k].0);
         for (a, &k) in axes.iter().enumerate() {
@@ -65,7 +63,7 @@ fn sample<const D: usize, const N: usize>(robot: &Robot, window: &Window, modes:
             }
         }
         let rows = ModalRows::<f64, N>::parted(robot, &twins, &legs, std::array::from_fn(|j| heights[j][0]));
-        let weights: f64 = (0..N).filter(|&j| !is_second(j)).map(|j| legs[j].closure.weight).product();
+        let weights: f64 = ModalRows::weights_of_parted(&twins, &legs).product();
         modes.iter().for_each(|&mode| det.add(rows.det(mode) / weights));
     }
     let mut scale = Scale::ones(robot);

@@ -76,11 +76,11 @@ impl<'a> Search<'a> {
         self.remember(limits);
     }
 
-    /// Counts those that are `due` once more. What was exact stays so; and once cancelled, what was counted last holds of finer boxes as well.
+    /// Counts those that are `due` once more. What was exact stays so.
     fn recount(&mut self, limits: &Limits<'_>, due: impl Fn(&Counted) -> bool + Sync) {
         let atlas = &self.atlas;
         let again = |(class, old): &mut (Class, Counted)| {
-            if due(old) && !limits.control.is_cancelled() {
+            if due(old) {
                 let new = count(atlas, *class, limits);
                 if new.is_exact() || !old.is_exact() {
                     *old = new;

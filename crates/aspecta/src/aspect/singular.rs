@@ -8,7 +8,7 @@ use serde::Serialize;
 /// locked the platform can move about everywhere.
 ///
 /// Such a mode has no generalized aspects (Definition 8 asks for det A ≠ 0); what there is of it are the connected domains in which
-/// the mode exists, all of them singular.
+/// the mode exists, all of them singular. No certificate file holds their numbers.
 #[derive(Clone, Debug, Serialize)]
 #[non_exhaustive]
 pub struct SingularMode {

@@ -3,7 +3,7 @@
 use crate::random::Random;
 use aspecta::Kinematics;
 use aspecta::aspect::{Analysis, Options, SingularMode, analyze};
-use aspecta::num::Interval;
+use aspecta::num::{Interval, Scalar};
 use aspecta::paving::{Budget, Control};
 use aspecta::robot::{Leg, LegIndex, Limit, Platform, Robot, RodAngle, catalogue};
 use aspecta::verify::verify;
@@ -153,6 +153,27 @@ fn legs_that_are_nearly_one_are_two() {
         leg.anchor[0] = Interval::new(-1e-9, 1e-9);
     }
     assert!(robot.twins().is_empty());
+}
+
+/// Nor does it to the counts, though the enclosures of what the two legs have in common are others then.
+#[test]
+fn counts_do_not_depend_on_where_a_motor_counts_from() {
+    let mut robot = catalogue::find("irb-360").unwrap();
+    robot.legs[1] = robot.legs[0].clone();
+    robot.legs[1].limits.clear();
+    let counted = |robot: &Robot| {
+        let options = Options { fix: vec![(2, -900.0)], ..Options::default() };
+        exact(&analyze(robot, &options, &Control::unwatched()).unwrap())
+    };
+    let alike = counted(&robot);
+    let [u, v, _] = robot.legs[1].frame;
+    let (sin, cos) = Interval::point(0.7).sin_cos();
+    let turned = |a: Interval, b: Interval| [cos * a + sin * b, cos * b - sin * a];
+    for k in 0..3 {
+        [robot.legs[1].frame[0][k], robot.legs[1].frame[1][k]] = turned(u[k], v[k]);
+    }
+    assert_eq!(robot.twins().len(), 1);
+    assert_eq!(counted(&robot), alike);
 }
 
 /// Where the zero of a motor's angle is does not matter.

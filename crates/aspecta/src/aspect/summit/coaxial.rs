@@ -14,8 +14,7 @@ use aspecta_robot::{Platform, Robot};
 /// Whether a robot is one of these, all of whose workspace is looked at.
 pub(super) fn folds_up(robot: &Robot, paving: &Paving) -> bool {
     let equal = robot.legs[0].actuator.as_revolute().is_some_and(|leg| leg.crank == leg.rod);
-    let uncut = paving.window.cut.iter().all(|cut| *cut == (false, false));
-    let whole = paving.chart == Chart::Pose && uncut && paving.axes.len() == 2;
+    let whole = paving.chart == Chart::Pose && !paving.window.is_cut() && paving.axes.len() == 2;
     robot.platform == Platform::PlanePoint && equal && !paving.twins.is_empty() && whole
 }
 

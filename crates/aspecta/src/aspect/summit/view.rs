@@ -75,6 +75,12 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
             (view.parted[first], view.parted[second]) = (true, true);
         }
         (0..N).for_each(|j| view.set_rows(j));
+        // One H, in one enclosure: which of them count as singular must not differ, though their frames may.
+        for (second, first) in (0..N).filter_map(|j| Some((j, view.twin_of[j]?))) {
+            view.reach[second] = view.reach[first];
+            view.heights[second] = view.heights[first];
+            view.smooth[second] = view.smooth[first];
+        }
         view
     }
 
