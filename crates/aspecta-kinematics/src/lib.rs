@@ -3,6 +3,7 @@
 // A variant that is added leads to every place that must decide about it.
 #![warn(clippy::wildcard_enum_match_arm)]
 
+mod agile_eye;
 mod architecture;
 pub mod chart;
 pub mod condition;
@@ -24,6 +25,7 @@ mod singularity;
 pub mod start;
 mod velocities;
 
+pub use agile_eye::AgileEye;
 pub use architecture::{Architecture, architecture};
 pub use direct::{DirectSolutions, Poses};
 pub use inverse::{LegSolutions, check_joints, check_pose};

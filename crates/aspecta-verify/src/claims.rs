@@ -117,8 +117,9 @@ fn settle<const D: usize>(
         let existence = legs.as_ref().map_or(Existence::Nowhere, |legs| legs.existence());
         let legs = legs.filter(|_| existence != Existence::Nowhere);
         let vanishes = setting.vanishes_in(mode);
-        let det = match &legs {
-            Some(legs) if !vanishes => legs.determinant().range,
+        let det = match (setting.known_sign(mode), &legs) {
+            (Some(sign), _) => Interval::point(sign),
+            (None, Some(legs)) if !vanishes => legs.determinant().range,
             _ => Interval::ENTIRE,
         };
         for class in [2 * m, 2 * m + 1] {

@@ -3,7 +3,7 @@
 use super::graph::Sets;
 use super::links::Link;
 use super::place::Place;
-use super::{Checked, Fault, Sheet, Verdict, charts};
+use super::{Checked, Fault, Sheet, Verdict, charts, right_angles};
 use crate::certificate::{Certificate, Claim, Leaf};
 use aspecta_robot::ClassSet;
 use aspecta_robot::chart::Chart;
@@ -39,9 +39,13 @@ pub(super) fn check<const D: usize>(
     (control.progress)(Progress { stage: "adjacency", done: 0, total: 1 });
     let leaves = Leaves::new::<D>(certificate, sheets, charts);
     let classes = 2 * certificate.modes.len();
+    let is_known = right_angles::modes_are_aspects(&certificate.robot, &certificate.window);
     let count = |class: usize| {
         (control.progress)(Progress { stage: "counting", done: class as u64, total: classes as u64 });
-        Claim { low: leaves.low::<D>(class, charts), high: leaves.high(class, links) }
+        let low = leaves.low::<D>(class, charts);
+        let high = leaves.high(class, links);
+        let high = if is_known { Some(high.map_or(1, |high| high.min(1))) } else { high };
+        Claim { low, high }
     };
     let counted: Vec<Claim> = work::map_range(classes, count);
     for (class, (&proved, &claimed)) in counted.iter().zip(&certificate.claims).enumerate() {

@@ -56,6 +56,7 @@ mod graph;
 mod in_mode;
 mod links;
 mod place;
+mod right_angles;
 mod rods;
 mod summit;
 #[cfg(test)]

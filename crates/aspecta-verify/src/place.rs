@@ -2,7 +2,7 @@
 
 use super::body::{Body, LegState, Links, MOST, joint, slope_per_root};
 use super::in_mode::InMode;
-use super::twins;
+use super::{right_angles, twins};
 use arrayvec::ArrayVec;
 use aspecta_robot::AXES;
 use aspecta_robot::WorkingMode;
@@ -35,12 +35,15 @@ pub(super) struct Setting<'a> {
     pub scale: &'a Scale,
     /// Pairs of legs that are one and the same.
     pub twins: Vec<[usize; 2]>,
+    /// Of a robot with right angles only.
+    pub handedness: Option<i8>,
 }
 
 impl<'a> Setting<'a> {
     pub(super) fn new(robot: &'a Robot, chart: &'a Chart, window: Window, scale: &'a Scale) -> Self {
         let axes = window.axes().into_iter().collect();
-        Self { robot, chart, window, axes, scale, twins: twins::of(robot) }
+        let (twins, handedness) = (twins::of(robot), right_angles::handedness(robot));
+        Self { robot, chart, window, axes, scale, twins, handedness }
     }
 
     /// Whether leg j is the chart's own, so that its q is the first coordinate.

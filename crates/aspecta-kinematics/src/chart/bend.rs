@@ -85,8 +85,8 @@ mod tests {
     use super::*;
     use crate::chart::Coordinates;
     use crate::chart::{Chart, charts};
-    use aspecta_robot::catalogue;
     use aspecta_robot::num::Random;
+    use aspecta_robot::{Limit, catalogue};
     use std::f64::consts::PI;
 
     const FOLDING: &str = include_str!("../../../aspecta/tests/fixtures/folding_sphere.toml");
@@ -121,8 +121,12 @@ mod tests {
         for robot in [folding(), six_folds()] {
             assert_eq!(uncharted_folds(&robot, &robot.slice(&[]).unwrap()), []);
         }
-        // All legs of the Agile Eye can fold at once.
-        let eye = catalogue::find("spherical-3-rrr").unwrap();
+        // All legs of the Agile Eye can fold at once: only without limits is all of it known.
+        let mut eye = catalogue::find("spherical-3-rrr").unwrap();
+        assert_eq!(charted(&eye), []);
+        assert_eq!(uncharted_folds(&eye, &eye.slice(&[]).unwrap()), []);
+        let (middle, half_cos) = ((Interval::point(1.0), Interval::point(0.0)), Interval::point(0.5));
+        eye.legs[0].limits.push(Limit::ActuatorAngle { middle, half_cos, turns: 0 });
         assert_eq!(charted(&eye), [Some(0)]);
         assert_eq!(uncharted_folds(&eye, &eye.slice(&[]).unwrap()), [1, 2].map(LegIndex::new));
     }

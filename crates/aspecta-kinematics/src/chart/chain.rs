@@ -1,5 +1,6 @@
 //! The joint angles of a spherical leg as coordinates of all configurations, or of those near its fold.
 
+use crate::AgileEye;
 use crate::modal::{Folded, LegClosure, closures};
 use crate::placement::{Placement, into_frame, out_of_frame, roll_pitch_yaw};
 use aspecta_robot::chart::{Bend, Chain};
@@ -26,10 +27,12 @@ fn angles_of(actuator: &Actuator) -> [(Interval, Interval); 2] {
 
 /// The chart for a platform that turns about a point, if `window` holds all its orientations. Where legs are one and the same there is
 /// none: of their determinant a factor is taken out that is no function of its coordinates ([`ModalRows::parted`](crate::modal::ModalRows::parted)).
+/// An Agile Eye without limits needs none.
 pub(super) fn of(robot: &Robot, window: &Window) -> Option<Chain> {
     let whole = !window.is_cut() && window.held().next().is_none();
     let spherical = robot.legs.first()?.actuator.as_spherical().is_some();
-    (robot.platform == Platform::TurningBody && spherical && whole && robot.twins().is_empty())
+    let known = AgileEye::has_an_aspect_a_mode(robot, window);
+    (robot.platform == Platform::TurningBody && spherical && whole && robot.twins().is_empty() && !known)
         .then_some(Chain { leg: LegIndex::new(0), bend: None })
 }
 

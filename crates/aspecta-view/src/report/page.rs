@@ -135,7 +135,7 @@ fn counts_section(analysis: &Analysis) -> Markup {
             p { "A generalized aspect (Definition 8) is a largest connected set of configurations in one working mode with det A ≠ 0. \
                  Its projections are the W-aspect (poses) and the Q-aspect (joint vectors)." }
             div.scroll { (tables::classes(analysis)) }
-            @for sentence in aspecta::text::singular_modes(analysis) { p { (sentence) } }
+            @for remark in aspecta::text::remarks(analysis) { p { (remark) } }
             (doubts::table(analysis))
             details open[analysis.aspects.low <= 24] {
                 summary { "All " (words::count(analysis.aspects.low, "proved aspect", "proved aspects")) }

@@ -18,7 +18,7 @@ use super::{AspectId, SingularMode};
 use crate::paving::{Budget, Control, MODES, Mark, Node, Paving, Progress, Stop};
 use aspecta_kinematics::chart::uncharted_folds;
 use aspecta_kinematics::parallel_rods::parallel_rods;
-use aspecta_kinematics::{Architecture, Kinematics, WorkingMode, architecture};
+use aspecta_kinematics::{AgileEye, Architecture, Kinematics, WorkingMode, architecture};
 use aspecta_robot::work::Stopwatch;
 use aspecta_robot::{Leg, LegIndex, Robot, Window, work};
 use aspecta_verify::certificate::Certificate;
@@ -144,6 +144,7 @@ fn analyze_here(robot: &Robot, options: &Options, control: &Control<'_>) -> Resu
         singular_modes,
         doubts,
         architecturally_singular,
+        agile_eye: AgileEye::of(robot).is_some(),
         parallel_rods,
         uncharted_folds,
         certificate,

@@ -4,6 +4,7 @@ use super::scale;
 use super::seams::{base_of, middle};
 use super::summit::summitless;
 use crate::paving::{Budget, ClassSet, Control, Node, Paving, Progress, for_paving};
+use aspecta_kinematics::AgileEye;
 use aspecta_kinematics::chart::Coordinates;
 use aspecta_kinematics::chart::{Chart, charts};
 use aspecta_kinematics::constraints::Scale;
@@ -73,6 +74,8 @@ pub(super) struct Atlas<'a> {
     pub charts: Vec<Chart>,
     pub sheets: Vec<Paving>,
     pub scale: Scale,
+    /// Whether every mode is known to be one aspect ([`AgileEye::has_an_aspect_a_mode`]): then nothing is to be searched for.
+    pub is_known: bool,
 }
 
 impl<'a> Atlas<'a> {
@@ -95,7 +98,8 @@ impl<'a> Atlas<'a> {
         let blank =
             charts.iter().map(|chart| Paving::blank(robot, chart.clone(), chart.window(window), modes));
         let sheets = std::iter::once(poses).chain(blank).collect();
-        Self { scale: scale::typical(robot, window, modes), robot, charts, sheets }
+        let is_known = AgileEye::has_an_aspect_a_mode(robot, window);
+        Self { scale: scale::typical(robot, window, modes), robot, charts, sheets, is_known }
     }
 
     /// Classes of which nothing is settled in a box: it is neither inside nor outside, and might hide a whole

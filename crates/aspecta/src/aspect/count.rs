@@ -85,7 +85,10 @@ pub(super) fn count(atlas: &Atlas<'_>, class: Class, limits: &Limits<'_>) -> Cou
         }
     }
     let mut summitless = Vec::new();
-    let with_summit = with_summit(atlas, class.bit, &components, &anchored, limits, &mut summitless);
+    let with_summit = match atlas.is_known {
+        true => vec![false; components.pieces.len()],
+        false => with_summit(atlas, class.bit, &components, &anchored, limits, &mut summitless),
+    };
     let (mut joined, joins) =
         merge(atlas.robot, &atlas.sheets, class, &components, &with_summit, &|| limits.is_spent());
     let mut groups = BTreeMap::<u32, Vec<u32>>::new();
@@ -100,7 +103,9 @@ pub(super) fn count(atlas: &Atlas<'_>, class: Class, limits: &Limits<'_>) -> Cou
         Group { component, pieces, anchored, summits }
     };
     let found: Vec<Group> = groups.into_iter().map(group).collect();
-    let closed = components.boxes.iter().all(|&leaf| atlas.open(leaf) & class.bit == 0);
+    // Where the mode is known to be one aspect, that is the one found.
+    let closed = atlas.is_known && !found.is_empty()
+        || components.boxes.iter().all(|&leaf| atlas.open(leaf) & class.bit == 0);
     let mut between = if found.iter().any(|group| group.summits > 1) {
         let label = |piece: u32| with_summit[piece as usize].then_some(piece);
         between(&components, links, &found, &label, &mut joined)

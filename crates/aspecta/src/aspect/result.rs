@@ -45,6 +45,9 @@ pub struct Analysis {
     /// Whether the robot seems to be singular wherever it goes ([`aspecta_kinematics::architecture`], numerical): then nothing is
     /// ever decided.
     pub architecturally_singular: bool,
+    /// Whether the robot is an Agile Eye ([`aspecta_kinematics::AgileEye`]): det A then keeps its sign in each working mode, and where
+    /// neither limits nor a window bound it each mode is exactly one aspect, which needs no search.
+    pub agile_eye: bool,
     /// Surfaces on which det A vanishes to higher order: a reason for doubts that no refinement removes.
     pub parallel_rods: Vec<ParallelRods>,
     /// The legs, of a platform that turns about a point, that can fold two at once: the platform's

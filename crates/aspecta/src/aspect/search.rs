@@ -40,7 +40,7 @@ impl<'a> Search<'a> {
         let atlas = Atlas::new(robot, window, modes, budget, control);
         let paved = atlas.sheets[0].stop;
         let mut search = Self { atlas, counted: Vec::new(), stop: paved };
-        let leaves = search.atlas.undecided_leaves();
+        let leaves = if search.atlas.is_known { Vec::new() } else { search.atlas.undecided_leaves() };
         let mut afforded = search.atlas.uncover(leaves, &limits);
         let counting = Stopwatch::start();
         search.count_all(&limits);

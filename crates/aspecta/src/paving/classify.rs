@@ -40,8 +40,8 @@ impl Slab {
 pub(super) struct Classifier<'a, const D: usize, const N: usize, const M: usize> {
     robot: &'a Robot,
     modes: &'a [WorkingMode],
-    /// The modes, one bit each, in which det A vanishes identically and nothing is asked of it.
-    vanishing: u8,
+    /// The modes, one bit each, in which the sign of det A is known ([`Paving::known_sign`]) and nothing is asked of it.
+    known: u8,
     twins: &'a [[LegIndex; 2]],
     chart: &'a Chart,
     /// The charts that cover part of this one.
@@ -68,9 +68,10 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
         axes.copy_from_slice(&paving.axes);
         let (modes, chart, window) = (&paving.modes, &paving.chart, &paving.window);
         let slabs = std::array::from_fn(|_| Vec::new());
-        let vanishing = modes_of(paving.vanishing());
+        let is_known = |m: &usize| paving.known_sign(*m).is_some();
+        let known = (0..modes.len()).filter(is_known).fold(0, |set, m| set | 1 << m);
         let mut classifier =
-            Self { robot, modes, vanishing, twins: &paving.twins, chart, charts, window, depth, slabs, axes };
+            Self { robot, modes, known, twins: &paving.twins, chart, charts, window, depth, slabs, axes };
         if boxes << 3 > 1 << depth {
             classifier.slabs = std::array::from_fn(|k| {
                 let count = if axes.contains(&k) { 1 << depth } else { 1 };
@@ -189,13 +190,14 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
             }
         }
         let rows = ModalRows::parted(self.robot, self.twins, legs, each!(|j| heights[j][0]));
-        let vanishing = wanted & self.vanishing;
-        for m in (0..self.modes.len()).filter(|m| vanishing >> m & 1 == 1) {
+        let of_one_sign = wanted & self.known;
+        for m in (0..self.modes.len()).filter(|m| of_one_sign >> m & 1 == 1) {
             for (l, node) in boxes.iter_mut().enumerate() {
-                node.settle(m, known.kept[m][l], known.broken[m][l], true, false);
+                let sign = node.undecided >> (2 * m);
+                node.settle(m, known.kept[m][l], known.broken[m][l], sign & 1 == 1, sign & 2 == 2);
             }
         }
-        rows.dets(self.modes, wanted & !self.vanishing, |m, det| {
+        rows.dets(self.modes, wanted & !self.known, |m, det| {
             let det = det.tightened().range;
             let (mut positive, mut negative) = (det.positive(), det.negative());
             let open = |l: usize| boxes[l].undecided >> (2 * m) & 3 != 0 && !(positive[l] || negative[l]);

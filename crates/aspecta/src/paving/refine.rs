@@ -1,10 +1,10 @@
 //! Subdivision, level by level.
 
-use super::ClassSet;
 use super::budget::{Budget, PAVING_SHARE, Stop};
 use super::classify::Classifier;
 use super::tree::{Node, Paving};
 use super::{Control, MAX_BOXES, MODES, Progress};
+use aspecta_kinematics::AgileEye;
 use aspecta_kinematics::chart::Chart;
 use aspecta_robot::WorkingMode;
 use aspecta_robot::num::LANES;
@@ -86,18 +86,25 @@ impl Paving {
     /// A paving of one box in which nothing is known.
     pub fn blank(robot: &Robot, chart: Chart, window: Window, modes: &[WorkingMode]) -> Self {
         assert!(modes.len() <= MODES, "a pass takes up to {MODES} working modes");
-        let all = ((1u32 << (2 * modes.len())) - 1) as ClassSet;
-        Self {
+        let mut paving = Self {
             axes: window.axes(),
             modes: modes.to_vec(),
             twins: robot.twins(),
-            nodes: vec![Node { undecided: all, partly: !0, ..Node::default() }],
+            eye: AgileEye::of(robot),
+            nodes: vec![Node { partly: !0, ..Node::default() }],
             depth: 0,
             boxes: 0,
             stop: Stop::Resolution,
             chart,
             window,
-        }
+        };
+        let classes = |m: usize| match paving.known_sign(m) {
+            None => 3,
+            Some(sign) if sign > 0 => 1,
+            Some(_) => 2,
+        };
+        paving.nodes[0].undecided = (0..modes.len()).fold(0, |all, m| all | classes(m) << (2 * m));
+        paving
     }
 
     /// Subdivides leaves, given in the order of their indices, and classifies their children; `charts` are

@@ -1,5 +1,6 @@
 //! The tree of boxes.
 
+use aspecta_kinematics::AgileEye;
 use aspecta_kinematics::chart::Chart;
 use aspecta_robot::WorkingMode;
 use aspecta_robot::num::Interval;
@@ -86,6 +87,8 @@ pub struct Paving {
     /// The legs that are one and the same ([`Robot::twins`](aspecta_robot::Robot::twins)). Where both are in one posture det A vanishes
     /// identically, and nothing is asked of it: the poses at which such a mode exists are in its first class, and none are in its second.
     pub twins: Vec<[LegIndex; 2]>,
+    /// The robot as an Agile Eye, if it is one: then det A keeps one sign in each mode, and the classes of the other are empty.
+    pub eye: Option<AgileEye>,
     /// All nodes, children after their parents. Node 0 is the window.
     pub nodes: Vec<Node>,
     /// Depth of the finest nodes.
@@ -159,6 +162,12 @@ impl Paving {
     pub fn vanishes_in(&self, m: usize) -> bool {
         let sign = |leg: &LegIndex| self.modes[m].sign(leg.index());
         self.twins.iter().any(|[i, j]| sign(i) == sign(j))
+    }
+
+    /// The sign that det A is known to have all over mode `m`. Where it vanishes identically what there is of the mode is in its first
+    /// class.
+    pub fn known_sign(&self, m: usize) -> Option<i8> {
+        if self.vanishes_in(m) { Some(1) } else { self.eye.map(|eye| eye.sign_of_det_a(self.modes[m])) }
     }
 
     /// The classes of the modes in which det A vanishes identically.

@@ -1,6 +1,6 @@
 //! The result of an analysis for people, in 100 columns.
 
-use super::{Align, Labels, Table, between, brief, doubts, paragraph, singular_modes};
+use super::{Align, Labels, Table, between, brief, doubts, paragraph, remarks};
 use crate::aspect::{
     Analysis, Aspect, AspectClass, Count, DetSign, EarlierAspects, Held, Measure, Reachable, Run,
 };
@@ -218,7 +218,7 @@ fn table_2(out: &mut dyn Write, analysis: &Analysis) -> fmt::Result {
     };
     let of_slice = if analysis.fixed.is_empty() { "" } else { " of the slice" };
     writeln!(out, "{}", paragraph(&format!("number of generalized aspects{of_slice}, {total}")))?;
-    singular_modes(analysis).iter().try_for_each(|sentence| writeln!(out, "{}", paragraph(sentence)))
+    remarks(analysis).iter().try_for_each(|remark| writeln!(out, "{}", paragraph(remark)))
 }
 
 fn aspects(out: &mut dyn Write, summary: AnalysisSummary<'_>) -> fmt::Result {

@@ -4,16 +4,16 @@ mod analysis;
 mod domains;
 pub mod doubt;
 mod doubts;
+mod remarks;
 mod route;
-mod singular;
 mod table;
 
 pub use analysis::{AnalysisAdvice, AnalysisSummary, EARLIER_NEED};
 pub use aspecta_kinematics::path::PathSummary;
 pub use aspecta_robot::text::{Labels, between, brief, det_a_unit, number, subscript, unsigned};
 pub use domains::{DomainsAdvice, DomainsSummary};
+pub use remarks::remarks;
 pub use route::RouteSummary;
-pub use singular::singular_modes;
 pub use table::{Align, Table};
 
 /// Columns that text is broken for.

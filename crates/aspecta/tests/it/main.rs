@@ -3,6 +3,7 @@
 //!
 //! All are one binary, so that the library is linked once; `cargo test -p aspecta paper` runs one subject.
 
+mod agile_eye;
 mod aspects;
 mod catalogue;
 mod characteristic;

@@ -1,10 +1,15 @@
-//! Wording of working modes in which det A vanishes at every pose.
+//! What the counts do not tell by themselves: modes in which det A vanishes at every pose, or keeps one sign.
 
 use super::{between, brief};
 use crate::aspect::{Analysis, SingularMode};
 
-/// A sentence for each of these modes: why it has no aspects, and what there is of it.
-pub fn singular_modes(analysis: &Analysis) -> Vec<String> {
+/// Why the modes of an Agile Eye have aspects of one sign only.
+const AGILE_EYE: &str = "An Agile Eye, all angles 90°: det A keeps its sign in each working mode, and vanishes only on curves, where a leg is folded \
+     and the platform turns with all motors locked. No refinement decides the boxes on them; curves part nothing.";
+
+/// Remarks on Table 2, a paragraph each: why an Agile Eye has aspects of one sign only; of each mode in which det A vanishes at every pose, why
+/// it has no aspects, and what there is of it.
+pub fn remarks(analysis: &Analysis) -> Vec<String> {
     let sentence = |found: &SingularMode| {
         let SingularMode { mode, legs: [first, second], low, high, measure, .. } = found;
         let domains = match high {
@@ -19,5 +24,6 @@ pub fn singular_modes(analysis: &Analysis) -> Vec<String> {
              platform moves with all motors locked; a mode like this has no aspects (Defs 5 and 8)."
         )
     };
-    analysis.singular_modes.iter().map(sentence).collect()
+    let eye = analysis.agile_eye.then(|| AGILE_EYE.to_owned());
+    eye.into_iter().chain(analysis.singular_modes.iter().map(sentence)).collect()
 }
