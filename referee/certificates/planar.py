@@ -71,6 +71,8 @@ class Limit:
     def __init__(self, value, kind):
         self.joint = value.get("joint") if isinstance(value, dict) else None
         names, kinds = LIMITS.get(self.joint, ((), ()))
+        if self.joint == "clearance":
+            raise NotChecked("a robot with obstacles")
         demand(kind in kinds, f"a limit of the joint {self.joint} of a {kind} leg")
         _, first, second = keys(value, "joint", *names, optional=["turns"] if self.joint == "actuator-angle" else [])
         if self.joint == "actuator-length":

@@ -124,7 +124,8 @@ impl<'a> Track<'a> {
             Limit::Elbow { .. }
             | Limit::SpatialElbow { .. }
             | Limit::BaseCone { .. }
-            | Limit::PlatformCone { .. } => true,
+            | Limit::PlatformCone { .. }
+            | Limit::Clearance(_) => true,
         };
         let there = (self.at(q) - point).norm() <= TOLERANCE * self.rod;
         (there && self.leg.limits.iter().all(allowed)).then_some(q)

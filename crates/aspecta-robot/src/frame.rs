@@ -84,7 +84,7 @@ fn difference(a: Interval, b: Interval) -> Interval {
     sum(a, -b)
 }
 
-fn dot(a: &[Interval; 3], b: &[Interval; 3]) -> Interval {
+pub(super) fn dot(a: &[Interval; 3], b: &[Interval; 3]) -> Interval {
     (0..3).fold(O, |s, k| sum(s, product(a[k], b[k])))
 }
 

@@ -1,5 +1,6 @@
 //! Legs, their actuators and their joint limits.
 
+use crate::Clearance;
 use crate::legs::{Actuator, Drive};
 use crate::num::{Interval, Scalar, dot_constant, each, turned_to};
 use serde::{Deserialize, Serialize};
@@ -35,11 +36,11 @@ pub struct Leg {
     pub frame: Frame,
     /// The actuator that drives the leg, with the lengths of its links.
     pub actuator: Actuator,
-    /// Limits of its actuated and passive joints.
+    /// Limits of its actuated and passive joints, and obstacles.
     pub limits: Vec<Limit>,
 }
 
-/// A joint limit: a condition that a configuration within the limits fulfils strictly.
+/// A limit of a joint, or an obstacle: a condition that a configuration within the limits fulfils strictly.
 ///
 /// Angular ranges are kept as a middle direction and a half-width in (0, π): inside is where the
 /// cosine of the difference exceeds that of the half-width, one smooth condition for any range.
@@ -93,6 +94,8 @@ pub enum Limit {
         /// cos of the half-angle.
         half_cos: Interval,
     },
+    /// A part of the leg stays clear of an obstacle.
+    Clearance(Clearance),
 }
 
 /// The frame whose vectors are those of the base.
@@ -136,17 +139,32 @@ impl Limit {
             | Self::Elbow { .. }
             | Self::SpatialElbow { .. }
             | Self::BaseCone { .. }
+            | Self::PlatformCone { .. }
+            | Self::Clearance(_) => None,
+        }
+    }
+
+    /// What it keeps clear of an obstacle, if it does that.
+    pub fn as_clearance(&self) -> Option<&Clearance> {
+        match self {
+            Self::Clearance(clearance) => Some(clearance),
+            Self::ActuatorAngle { .. }
+            | Self::ActuatorLength { .. }
+            | Self::Elbow { .. }
+            | Self::SpatialElbow { .. }
+            | Self::BaseCone { .. }
             | Self::PlatformCone { .. } => None,
         }
     }
 
-    /// The joint it limits, as robot files call it.
+    /// The joint it limits, as robot files call it, or `clearance`.
     pub fn joint(&self) -> &'static str {
         match self {
             Self::ActuatorAngle { .. } | Self::ActuatorLength { .. } => "actuator",
             Self::Elbow { .. } | Self::SpatialElbow { .. } => "elbow",
             Self::BaseCone { .. } => "base-joint",
             Self::PlatformCone { .. } => "platform-joint",
+            Self::Clearance(_) => "clearance",
         }
     }
 }
@@ -174,7 +192,8 @@ impl Leg {
             Limit::Elbow { .. }
             | Limit::SpatialElbow { .. }
             | Limit::BaseCone { .. }
-            | Limit::PlatformCone { .. } => None,
+            | Limit::PlatformCone { .. }
+            | Limit::Clearance(_) => None,
         })
     }
 
@@ -191,7 +210,8 @@ impl Leg {
             Limit::Elbow { .. }
             | Limit::SpatialElbow { .. }
             | Limit::BaseCone { .. }
-            | Limit::PlatformCone { .. } => None,
+            | Limit::PlatformCone { .. }
+            | Limit::Clearance(_) => None,
         })
     }
 
@@ -215,7 +235,8 @@ impl Leg {
             | Limit::Elbow { .. }
             | Limit::SpatialElbow { .. }
             | Limit::BaseCone { .. }
-            | Limit::PlatformCone { .. } => None,
+            | Limit::PlatformCone { .. }
+            | Limit::Clearance(_) => None,
         })
     }
 }

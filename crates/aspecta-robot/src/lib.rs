@@ -10,6 +10,7 @@
 pub mod catalogue;
 pub mod chart;
 mod classes;
+mod clearance;
 pub mod constraint;
 mod file;
 mod frame;
@@ -32,6 +33,7 @@ mod working_mode;
 
 pub use crate::legs::{Actuator, Prismatic, Revolute, Spherical, Strut};
 pub use classes::{AXES, ClassSet, MAX_BOXES, MODES};
+pub use clearance::{Clearance, LinkPart, MOST_OBSTACLES, Solid};
 pub(crate) use file::{Fault, LegKeys};
 pub use file::{FileError, Mistake, Problem, is_unprintable};
 pub use frame::{crank_frame, rail_frame};

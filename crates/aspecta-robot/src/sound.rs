@@ -148,7 +148,7 @@ fn fault_of_leg(leg: &Leg, platform: Platform) -> Option<&'static str> {
              or an angle of a link is not within (0, π)",
         );
     }
-    let all = leg.limits.iter().all(|limit| is_limit(limit, &leg.actuator, platform.space()));
+    let all = leg.limits.iter().all(|limit| is_limit(limit, leg, platform.space()));
     (!all).then_some("a limit makes no sense, or belongs to a leg of another kind")
 }
 
@@ -186,8 +186,8 @@ pub fn takes(actuator: &Actuator) -> Takes {
     }
 }
 
-fn is_limit(limit: &Limit, actuator: &Actuator, space: usize) -> bool {
-    let takes = takes(actuator);
+fn is_limit(limit: &Limit, leg: &Leg, space: usize) -> bool {
+    let takes = takes(&leg.actuator);
     match limit {
         Limit::ActuatorAngle { middle, half_cos, turns } => {
             takes.angle && is_circular(middle) && sane(half_cos) && turns.abs() <= 2
@@ -206,6 +206,7 @@ fn is_limit(limit: &Limit, actuator: &Actuator, space: usize) -> bool {
             let unit = axis.iter().all(sane) && is_about(dot(axis, axis), 1.0);
             takes.rod && unit && sane(half_cos)
         }
+        Limit::Clearance(clearance) => clearance.fits(leg, space),
     }
 }
 

@@ -4,6 +4,7 @@
 //! 2 or 3 coordinates; there are up to six legs and coordinates, and entries beyond are zero.
 
 mod chain;
+mod clearance;
 mod kinds;
 
 pub(super) use chain::Links;
@@ -246,6 +247,7 @@ impl<'a, T: Scalar, const D: usize> Body<'a, T, D> {
                 let axis = into_frame(leg, &self.turn(axis));
                 product(&axis, &self.rod(j, d, q)) - constant(*half_cos)
             }
+            Limit::Clearance(clearance) => self.clearance(j, clearance, d, q),
         }
     }
 

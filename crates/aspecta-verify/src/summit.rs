@@ -141,7 +141,9 @@ impl<const D: usize> InMode<'_, '_, D> {
                 Constraint::Limit(j, k) => {
                     let leg = &self.legs[j.index()];
                     let gradient = of_leg(j.index(), &leg.over.limits[k].gradient);
-                    Bound { value: leg.limits[k] / size, gradient, height_of: None }
+                    let value = leg.limits[k] / size;
+                    let by_root = constraint.counts_by_root(setting.robot);
+                    Bound { value: if by_root { value.sqrt() } else { value }, gradient, height_of: None }
                 }
                 Constraint::RodAngle(_, k) => {
                     let angle = self.rod_angle(&setting.robot.rod_angles[k]);

@@ -65,6 +65,7 @@ pub fn margin<T: Scalar, const D: usize>(
             let axis = into_frame(at.leg, &placement.turned(axis));
             dot(&axis, &rod_direction(at, sh)) - rod_length(at).scale(*half_cos)
         }
+        Limit::Clearance(clearance) => super::clearance::margin(clearance, at, sh),
     }
 }
 
@@ -77,9 +78,10 @@ pub fn unit<T: Scalar, const D: usize>(limit: &Limit, at: &LegAt<'_, T, D>, sh: 
             Drive::Length(_) => T::constant(Interval::ENTIRE),
         },
         Limit::BaseCone { .. } | Limit::PlatformCone { .. } => rod_length(at),
-        Limit::ActuatorLength { .. } | Limit::Elbow { .. } | Limit::SpatialElbow { .. } => {
-            T::constant(Interval::point(1.0))
-        }
+        Limit::ActuatorLength { .. }
+        | Limit::Elbow { .. }
+        | Limit::SpatialElbow { .. }
+        | Limit::Clearance(_) => T::constant(Interval::point(1.0)),
     }
 }
 

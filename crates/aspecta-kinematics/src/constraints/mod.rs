@@ -10,6 +10,7 @@
 //! boundaries are drawn and where solutions and paths are told to be within limits they stand beside this list.
 
 mod bound;
+mod clearance;
 mod configuration;
 mod demand;
 mod limit;

@@ -39,6 +39,7 @@ class Description:
         length_unit: str | None = None,
         window: Mapping[str, Any] | None = None,
         rod_angles: Sequence[Mapping[str, Any]] | None = None,
+        obstacles: Sequence[Mapping[str, Any]] | None = None,
     ) -> None:
         if (name_or_path is None) == (platform is None):
             raise _native.Error("give the name of a robot, or its platform and legs")
@@ -52,9 +53,9 @@ class Description:
                 "length-unit": length_unit,
                 "platform": platform,
             }
-            shared = [_input.plain(limit) for limit in rod_angles or ()]
             table |= {"legs": [_input.plain(leg) for leg in legs or ()], "window": _input.plain(window)}
-            table |= {"rod-angles": shared or None}
+            for key, given_tables in (("rod-angles", rod_angles), ("obstacles", obstacles)):
+                table[key] = [_input.plain(one) for one in given_tables or ()] or None
             given = {key: value for key, value in table.items() if value is not None}
             native = _native.Robot.from_toml(tomli_w.dumps(given), name)
         self._set(native)

@@ -8,7 +8,7 @@ pub use named::{constraint, if_any};
 pub use scale::Scale;
 
 use crate::leg_index::{as_index, as_indices};
-use crate::{LegIndex, LegSet, Limit, Robot};
+use crate::{Clearance, LegIndex, LegSet, Limit, Robot};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -74,6 +74,15 @@ impl Constraint {
         }
     }
 
+    /// Whether its root is one of the functions whose least is P (docs/theory.md, 5): of H_j, and of what is left to an obstacle.
+    pub fn counts_by_root(self, robot: &Robot) -> bool {
+        match self {
+            Self::Reach(_) => true,
+            Self::Limit(j, k) => robot.leg(j).limits[k].as_clearance().is_some(),
+            Self::RodAngle(..) | Self::Det => false,
+        }
+    }
+
     /// The leg that it is about, if it is about one alone.
     pub fn leg(self) -> Option<LegIndex> {
         match self {
@@ -102,10 +111,18 @@ impl Constraint {
         }
     }
 
-    /// Returns its name, with the joint that it limits.
+    /// Returns its name, with the joint that it limits or the obstacle.
     pub fn named(self, robot: &Robot) -> String {
         match self {
-            Self::Limit(j, k) => format!("{} limit of leg {j}", robot.leg(j).limits[k].joint()),
+            Self::Limit(j, k) => {
+                let limit = &robot.leg(j).limits[k];
+                match limit.as_clearance() {
+                    Some(Clearance { obstacle, part, .. }) => {
+                        format!("obstacle {obstacle} at the {} of leg {j}", part.name())
+                    }
+                    None => format!("{} limit of leg {j}", limit.joint()),
+                }
+            }
             Self::Reach(_) | Self::RodAngle(..) | Self::Det => self.to_string(),
         }
     }

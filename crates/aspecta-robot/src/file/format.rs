@@ -166,9 +166,32 @@ pub(super) struct RobotFile {
     /// Limits that two legs share: the angle between their rods.
     #[serde(default)]
     pub rod_angles: Vec<At<RodAngleTable>>,
+    /// Bodies of the surroundings that the links keep clear of.
+    #[serde(default)]
+    pub obstacles: Vec<At<ObstacleTable>>,
     /// Bounds on pose coordinates, within what the legs reach.
     #[serde(default)]
     pub window: WindowTable,
+}
+
+/// A disc, or a ball in space, `centre` and `radius`; or a wall, `face` and `normal`.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(
+    rename_all = "kebab-case",
+    deny_unknown_fields,
+    expecting = "an obstacle, centre and radius or face and normal"
+)]
+pub(super) struct ObstacleTable {
+    /// The centre of a disc or ball.
+    pub centre: Option<At<Vector>>,
+    /// Its radius.
+    pub radius: Option<Number>,
+    /// A point on the face of a wall.
+    pub face: Option<At<Vector>>,
+    /// The direction out of the wall, of any length.
+    pub normal: Option<At<Vector>>,
+    /// The distance that the axes of the links keep from it, 0 if left out: half the width of a link, and what is to be left besides.
+    pub clearance: Option<Number>,
 }
 
 /// The range of the angle between the rods of two legs, within 0° to 180°.
@@ -285,6 +308,8 @@ pub(super) fn hint(key: &str) -> &'static str {
         "zero" => "say where the crank points at q = 0, zero = […]",
         "legs" => "name the two legs, legs = [1, 2]",
         "angle" => "give the range of the angle between their rods, angle = { deg = [15, 165] }",
+        "radius" => "give the radius of the obstacle, radius = …",
+        "normal" => "give the direction out of the wall, normal = […]",
         "within" => "give the cone's half-angle, within = { deg = … }",
         "deg" => "give the range in the plane, { deg = [min, max] }",
         _ => "give the angle of the link, { deg = … }",

@@ -7,6 +7,7 @@ mod format;
 mod keys;
 mod limits;
 mod locate;
+mod obstacles;
 mod schema;
 mod words;
 

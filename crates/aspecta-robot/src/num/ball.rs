@@ -119,6 +119,15 @@ impl Scalar for Ball {
         let (sin, cos) = Interval::from(self).sin_cos();
         (sin.into(), cos.into())
     }
+    fn clamped(self) -> Self {
+        Interval::from(self).clamped().into()
+    }
+    fn clamped_slope(self) -> Self {
+        Interval::from(self).clamped_slope().into()
+    }
+    fn clamped_square(self) -> Self {
+        Interval::from(self).clamped_square().into()
+    }
 }
 
 impl Neg for Ball {

@@ -185,6 +185,26 @@ impl Scalar for Interval {
         let first = trig::sin_cos(self.lo);
         Self::waves(first, if self.lo == self.hi { first } else { trig::sin_cos(self.hi) })
     }
+
+    fn clamped(self) -> Self {
+        Self { lo: self.lo.clamp(0.0, 1.0), hi: self.hi.clamp(0.0, 1.0) }
+    }
+
+    fn clamped_slope(self) -> Self {
+        let within = self.lo >= 0.0 && self.hi <= 1.0;
+        let beyond = self.hi < 0.0 || self.lo > 1.0;
+        Self { lo: f64::from(u8::from(within)), hi: f64::from(u8::from(!beyond)) }
+    }
+
+    /// It grows with its argument.
+    fn clamped_square(self) -> Self {
+        let at = |t: f64| match Self::point(t) {
+            _ if t <= 0.0 => Self::point(0.0),
+            t if t.hi <= 1.0 => t.square(),
+            t => t + t - Self::point(1.0),
+        };
+        Self { lo: at(self.lo).lo, hi: at(self.hi).hi }
+    }
 }
 
 impl Neg for Interval {

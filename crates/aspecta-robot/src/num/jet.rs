@@ -49,6 +49,16 @@ impl<T: Scalar, const N: usize> Scalar for Jet<T, N> {
         let (s, c) = self.value.sin_cos();
         (self.chain(s, c), self.chain(c, -s))
     }
+    fn clamped(self) -> Self {
+        self.chain(self.value.clamped(), self.value.clamped_slope())
+    }
+    fn clamped_slope(self) -> Self {
+        Self::fixed(self.value.clamped_slope())
+    }
+    fn clamped_square(self) -> Self {
+        let c = self.value.clamped();
+        self.chain(self.value.clamped_square(), c + c)
+    }
     fn tightened(self) -> Self {
         Self { value: self.value.tightened(), gradient: each!(|k| self.gradient[k].tightened()) }
     }

@@ -52,6 +52,16 @@ pub trait Scalar:
     /// (sin, cos) of an angle in radians.
     fn sin_cos(self) -> (Self, Self);
 
+    /// The number of [0, 1] that is nearest: c(t) = min(max(t, 0), 1).
+    fn clamped(self) -> Self;
+
+    /// The derivative of [`Scalar::clamped`], 1 within [0, 1] and 0 outside; at the ends it may be either.
+    fn clamped_slope(self) -> Self;
+
+    /// 2∫c, c(t) = [`Scalar::clamped`] and the integral from 0 to t: t² within [0, 1], 0 below and 2t − 1 above. It is smooth, with the
+    /// derivative 2c.
+    fn clamped_square(self) -> Self;
+
     /// Returns the number enclosed as tightly as its own slopes allow; other scalars are returned unchanged.
     #[inline(always)]
     fn tightened(self) -> Self {
@@ -88,6 +98,16 @@ impl Scalar for f64 {
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
         f64::sin_cos(self)
+    }
+    fn clamped(self) -> Self {
+        self.clamp(0.0, 1.0)
+    }
+    fn clamped_slope(self) -> Self {
+        if (0.0..=1.0).contains(&self) { 1.0 } else { 0.0 }
+    }
+    fn clamped_square(self) -> Self {
+        let c = self.clamped();
+        c * (2.0 * self - c)
     }
 }
 

@@ -143,6 +143,18 @@ impl Scalar for Pack {
         Self::lanes(|k| (most(down(most(self.lo[k], 0.0).sqrt()), 0.0), up(most(self.hi[k], 0.0).sqrt())))
     }
 
+    fn clamped(self) -> Self {
+        Self::from_fn(|k| self.lane(k).clamped())
+    }
+
+    fn clamped_slope(self) -> Self {
+        Self::from_fn(|k| self.lane(k).clamped_slope())
+    }
+
+    fn clamped_square(self) -> Self {
+        Self::from_fn(|k| self.lane(k).clamped_square())
+    }
+
     fn sin_cos(self) -> (Self, Self) {
         let within = |x: &[f64; LANES]| x.iter().all(|x| x.abs() < trig::MOST_ANGLE);
         if !(within(&self.lo) && within(&self.hi)) {

@@ -177,6 +177,22 @@ impl<T: Enclosure, const N: usize> Scalar for Slope<T, N> {
         (self.chain(sin, sin_c, cos), self.chain(cos, cos_c, -sin))
     }
 
+    fn clamped(self) -> Self {
+        self.chain(self.range.clamped(), self.centre.clamped(), self.range.clamped_slope())
+    }
+
+    /// It jumps, and has no slopes: what it starts from is as wide as its range.
+    fn clamped_slope(self) -> Self {
+        let range = self.range.clamped_slope();
+        Self { range, centre: range, slope: [T::zero(); N] }
+    }
+
+    fn clamped_square(self) -> Self {
+        let f = self.tightened();
+        let c = f.range.clamped();
+        f.chain(f.range.clamped_square(), f.centre.clamped_square(), c + c)
+    }
+
     #[inline(always)]
     fn scale(self, c: Interval) -> Self {
         if c == Interval::point(1.0) {

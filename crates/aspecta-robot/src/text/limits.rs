@@ -1,7 +1,7 @@
 //! Joint limits as people read them.
 
 use super::brief;
-use crate::Limit;
+use crate::{Clearance, Limit};
 
 impl Limit {
     /// The limit in words: `q from -0.3491 to 3.4907 rad`; lengths are in `unit`.
@@ -32,6 +32,9 @@ impl Limit {
             }
             Self::PlatformCone { half_cos, .. } => {
                 format!("platform joint within {} rad", brief(half_cos.mid().acos()))
+            }
+            Self::Clearance(Clearance { obstacle, part, distance, .. }) => {
+                format!("{} {} {unit} from obstacle {obstacle}", part.name(), brief(distance.mid()))
             }
         }
     }

@@ -86,6 +86,24 @@ pub(super) fn bend<T: Scalar, const D: usize>(actuator: &Actuator, d: &[T; D]) -
     }
 }
 
+/// B − A, zero where there is no B; `turn` gives (sin q, cos q).
+pub(super) fn elbow<T: Scalar, const D: usize>(
+    actuator: &Actuator,
+    q: T,
+    turn: impl FnOnce() -> (T, T),
+) -> [T; D] {
+    let mut elbow = [T::zero(); D];
+    match *actuator {
+        Actuator::Revolute(Revolute { crank, .. }) => {
+            let (sin, cos) = turn();
+            (elbow[0], elbow[1]) = (cos.scale(crank), sin.scale(crank));
+        }
+        Actuator::Prismatic(_) => elbow[0] = q,
+        Actuator::Strut(_) | Actuator::Spherical(_) => {}
+    }
+    elbow
+}
+
 /// The direction of the rod (of the strut); `turn` gives (sin q, cos q).
 pub(super) fn rod<T: Scalar, const D: usize>(
     actuator: &Actuator,

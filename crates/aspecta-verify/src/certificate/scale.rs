@@ -3,7 +3,7 @@
 use super::{Certificate, Unsound};
 use aspecta_robot::constraint::Constraint;
 use aspecta_robot::num::Interval;
-use aspecta_robot::{Actuator, Leg, Limit, Prismatic, Revolute, Strut, Window};
+use aspecta_robot::{Actuator, Clearance, Leg, Limit, Prismatic, Revolute, Solid, Strut, Window};
 
 /// How many times the greatest magnitude of a function its scale may be. Proofs hold for any scale, but what
 /// is divided by very much is all but zero, and then each leaf takes as long as one can take.
@@ -88,6 +88,15 @@ fn limit(leg: &Leg, limit: &Limit, window: &Window) -> f64 {
         // 2LM, the root of H at most, times cosines.
         Limit::Elbow { .. } => 3.0 * reach(leg).sqrt(),
         Limit::SpatialElbow { .. } => 4.0 * reach(leg),
+        // The square of a distance, or one.
+        Limit::Clearance(Clearance { solid, distance, .. }) => {
+            let place = match solid {
+                Solid::Ball { centre, radius } => norm(centre) + radius.hi,
+                Solid::Wall { offset, .. } => norm(&[*offset]),
+            };
+            let far = place + distance.hi + norm(&leg.anchor) + span(leg, window) + gradient(leg, window);
+            far.max(1.0).powi(2)
+        }
         Limit::ActuatorLength { min, max } => {
             // Of a slider two differences of lengths, of a strut two of their squares.
             let length = span(leg, window) + gradient(leg, window) + norm(&[*min, *max]);

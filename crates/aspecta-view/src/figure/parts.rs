@@ -9,6 +9,7 @@ pub(super) const CRANK: &str = "#0072b2";
 pub(super) const ROD: &str = "#d55e00";
 pub(super) const PLATFORM: &str = "#009e73";
 pub(super) const SPHERE: &str = "#bbb";
+pub(super) const SOLID: &str = "#e3d9c6";
 
 /// Height of a line of the legend, pixels.
 const LINE: f64 = 17.0;
@@ -40,6 +41,7 @@ fn entries(robot: &Robot) -> Vec<Entry> {
     let platform = [
         (robot.platform != Platform::PlanePoint, PLATFORM, "platform"),
         (robot.platform == Platform::TurningBody, SPHERE, "unit sphere"),
+        (!robot.obstacles().is_empty(), SOLID, "obstacle"),
     ];
     let platform = platform.into_iter().filter(|(there, ..)| *there).map(|(_, colour, text)| (colour, text));
     once.map(|(_, part)| (colour(part.role), part.name)).chain(platform).collect()

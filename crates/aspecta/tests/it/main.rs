@@ -21,6 +21,7 @@ mod many_limits;
 mod maps;
 mod motion;
 mod no_c;
+mod obstacles;
 mod paper;
 mod paving;
 mod random;

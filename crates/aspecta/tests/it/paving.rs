@@ -1,6 +1,7 @@
 //! What a paving claims, held against configurations recomputed from scratch on random robots of every platform that
 //! can be paved. `ASPECTA_CASES` sets the number of robots tried of each kind (20 by default).
 
+use crate::obstacles::to_spare;
 use aspecta::Kinematics;
 use aspecta::aspect::{Analysis, AspectId, ClassId, DetSign, Options, Place, analyze};
 use aspecta::kinematics::WorkingMode;
@@ -205,17 +206,17 @@ fn margin(limit: &Limit, leg: &Leg, platform: Platform, x: &[f64], q: f64) -> f6
     let c: Vector = std::array::from_fn(|k| turned(&mid(&leg.attachment))[k] + origin[k]);
     let frame: [Vector; 3] = std::array::from_fn(|k| mid(&leg.frame[k]));
     let out = |v: Vector| -> Vector { std::array::from_fn(|k| (0..3).map(|i| v[i] * frame[i][k]).sum()) };
-    let (driver, rod) = match leg.actuator {
+    let (driver, rod, b) = match leg.actuator {
         Actuator::Revolute(Revolute { crank, .. }) => {
             let u = out([q.cos(), q.sin(), 0.0]);
             let b: Vector = std::array::from_fn(|k| mid(&leg.anchor)[k] + crank.mid() * u[k]);
-            (u, unit(&sub(&c, &b)))
+            (u, unit(&sub(&c, &b)), b)
         }
         Actuator::Prismatic(_) => {
             let b: Vector = std::array::from_fn(|k| mid(&leg.anchor)[k] + q * frame[0][k]);
-            (frame[0], unit(&sub(&c, &b)))
+            (frame[0], unit(&sub(&c, &b)), b)
         }
-        _ => ([0.0; 3], unit(&sub(&c, &mid(&leg.anchor)))),
+        _ => ([0.0; 3], unit(&sub(&c, &mid(&leg.anchor))), mid(&leg.anchor)),
     };
     match limit {
         Limit::ActuatorAngle { middle, half_cos, .. } => {
@@ -232,6 +233,7 @@ fn margin(limit: &Limit, leg: &Leg, platform: Platform, x: &[f64], q: f64) -> f6
         }
         Limit::BaseCone { axis, half_cos } => dot(&out(mid(axis)), &rod) - half_cos.mid(),
         Limit::PlatformCone { axis, half_cos } => dot(&turned(&mid(axis)), &rod) - half_cos.mid(),
+        Limit::Clearance(clearance) => to_spare(clearance, [mid(&leg.anchor), b, c]) / 10.0,
     }
 }
 

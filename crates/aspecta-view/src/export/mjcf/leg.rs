@@ -6,7 +6,7 @@
 use super::element::Element;
 use crate::figure::skeleton::{LegShape, Point, times};
 use aspecta::legs::{Body, Joint};
-use aspecta::robot::{Leg, Limit, Platform};
+use aspecta::robot::{Clearance, Leg, Limit, Platform};
 
 /// Mass of a link. All forces are inertial, so only ratios of masses matter.
 const LINK: f64 = 0.1;
@@ -122,14 +122,17 @@ impl Limb<'_> {
 
 /// The limits that the model does not have, as `elbow of leg 1`: those of passive joints.
 pub fn left_out(legs: &[Leg]) -> Vec<String> {
-    let name = |limit: &Limit| match limit {
+    let name = |leg: usize, limit: &Limit| match limit {
         Limit::ActuatorAngle { .. } | Limit::ActuatorLength { .. } => None,
-        Limit::Elbow { .. } | Limit::SpatialElbow { .. } => Some("elbow"),
-        Limit::BaseCone { .. } => Some("base-joint"),
-        Limit::PlatformCone { .. } => Some("platform-joint"),
+        Limit::Elbow { .. } | Limit::SpatialElbow { .. } => Some(format!("elbow of leg {leg}")),
+        Limit::BaseCone { .. } => Some(format!("base-joint of leg {leg}")),
+        Limit::PlatformCone { .. } => Some(format!("platform-joint of leg {leg}")),
+        Limit::Clearance(Clearance { obstacle, part, .. }) => {
+            Some(format!("obstacle {obstacle} at the {} of leg {leg}", part.name()))
+        }
     };
     let of = |(k, leg): (usize, &Leg)| -> Vec<String> {
-        leg.limits.iter().filter_map(name).map(|name| format!("{name} of leg {}", k + 1)).collect()
+        leg.limits.iter().filter_map(|limit| name(k + 1, limit)).collect()
     };
     legs.iter().enumerate().flat_map(of).collect()
 }

@@ -65,9 +65,7 @@ impl<'a, const D: usize, const N: usize, const M: usize> Way<'a, D, N, M> {
     ) -> Option<ArrayVec<Growth<M>, MOST>> {
         let Self { view, legs, .. } = self;
         let (mut all, mut fit) = (ArrayVec::new(), true);
-        let mut add = |value: Interval, scale: f64, along| {
-            fit &= all.try_push(Growth { value: value / Interval::point(scale), along }).is_ok();
-        };
+        let mut add = |value: Interval, along| fit &= all.try_push(Growth { value, along }).is_ok();
         let sign = |j: usize| f64::from(mode.sign(j));
         for bound in &self.bounds {
             match bound {
@@ -75,13 +73,15 @@ impl<'a, const D: usize, const N: usize, const M: usize> Way<'a, D, N, M> {
                     let reach = view.reach[j].value.lane(lane).meet(legs[j].height.lane(lane).square());
                     let height =
                         (reach / Interval::point(view.scale[Constraint::Reach(LegIndex::new(j))])).sqrt();
-                    add(height, 1.0, self.reach_along(frame, j, sign(j), lane));
+                    add(height, self.reach_along(frame, j, sign(j), lane));
                 }
                 Bound::Limit(part) if part.is_in(mode) => {
                     let own: ArrayVec<_, N> =
                         part.own.iter().map(|(j, own)| (*j, sign(*j), own.lane(lane))).collect();
                     let along = frame.along(&part.field.gradient_in(lane), &own);
-                    add(part.field.value.lane(lane), view.scale[part.constraint], along);
+                    let value = part.field.value.lane(lane) / Interval::point(view.scale[part.constraint]);
+                    let by_root = part.constraint.counts_by_root(view.robot);
+                    add(if by_root { value.sqrt() } else { value }, along);
                 }
                 Bound::Limit(_) => {}
             }
@@ -97,7 +97,7 @@ impl<'a, const D: usize, const N: usize, const M: usize> Way<'a, D, N, M> {
             ] {
                 if cut {
                     let gradient = std::array::from_fn(|b| Interval::point(if a == b { sign } else { 0.0 }));
-                    add(distance, last - first, frame.along(&gradient, &[]));
+                    add(distance / Interval::point(last - first), frame.along(&gradient, &[]));
                 }
             }
         }
