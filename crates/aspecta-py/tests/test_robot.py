@@ -36,6 +36,19 @@ def test_legs_share_a_limit() -> None:
         aspecta.Robot(platform="plane-point", legs=legs, rod_angles=[{"legs": [1, 1], "angle": {"deg": [0, 90]}}])
 
 
+def test_links_keep_clear_of_obstacles() -> None:
+    legs = [{"anchor": [0, 0], **LEG}, {"anchor": [9, 0], "actuator": {"kind": "revolute", "crank": 5, "rod": 8}}]
+    disc = {"centre": np.array([4.5, 0.0]), "radius": 1}
+    robot = aspecta.Robot(platform="plane-point", legs=legs, obstacles=[disc])
+    analysis = robot.analyze()
+    assert analysis.exact and analysis.low == 28
+    assert aspecta.Robot.from_toml(robot.to_toml()) == robot
+    within = [s.within_limits for s in robot.ik([4.5, 2.9])]
+    assert len(within) == 4 and not all(within)
+    with pytest.raises(aspecta.Error, match="radius"):
+        aspecta.Robot(platform="plane-point", legs=legs, obstacles=[{"centre": [4.5, 0]}])
+
+
 def test_a_robot_is_built_from_its_legs(tmp_path: Path) -> None:
     legs = [{"anchor": np.array([0.0, 0.0]), **LEG}, {"anchor": (9, 0), **LEG}]
     robot = aspecta.Robot(platform="plane-point", legs=legs, name="mine", length_unit="mm", window={"y": [0, 20]})
