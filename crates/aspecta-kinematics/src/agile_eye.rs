@@ -1,6 +1,6 @@
 //! The Agile Eye: a spherical 3-RRR with right angles only, of which det A is known in closed form.
 
-use aspecta_robot::num::Interval;
+use aspecta_robot::num::{Interval, cross, dot};
 use aspecta_robot::{Leg, Platform, Robot, Window, WorkingMode};
 
 /// A platform that turns about a point on three spherical legs, each with two links of 90°, the three motors' axes being perpendicular to
@@ -44,11 +44,8 @@ impl AgileEye {
             && are_perpendicular(motors)
             && are_perpendicular(axes(|leg| &leg.attachment));
         let [a, b, c] = motors.map(|axis| axis.map(Interval::mid));
-        let triple = (0..3).map(|i| {
-            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-            a[i] * (b[j] * c[k] - b[k] * c[j])
-        });
-        is_one.then(|| Self { handedness: if triple.sum::<f64>() > 0.0 { 1 } else { -1 } })
+        let handedness = if dot(&a, &cross(&b, &c)) > 0.0 { 1 } else { -1 };
+        is_one.then_some(Self { handedness })
     }
 
     /// The sign of det A all over a working mode.
@@ -92,6 +89,7 @@ fn cancels(a: &[Interval; 3], b: &[Interval; 3]) -> bool {
 mod tests {
     use super::*;
     use crate::Kinematics;
+    use crate::placement::Placement;
     use aspecta_robot::catalogue;
     use aspecta_robot::num::Random;
 
@@ -122,19 +120,13 @@ mod tests {
             let found = AgileEye::of(&robot).unwrap();
             for _ in 0..300 {
                 let pose = [3.1, 1.5, 3.1].map(|end| random.within((-end, end)));
+                let placement = Placement::<f64, 3>::at(robot.platform, &pose);
                 let cosines = |i: usize, j: usize| {
-                    let arm = crate::placement::Placement::<f64, 3>::at(robot.platform, &pose);
-                    let v: [f64; 3] = arm.arm(&robot.legs[j]);
-                    (0..3).map(|k| robot.legs[i].frame[2][k].mid() * v[k]).sum::<f64>()
+                    dot(&robot.legs[i].frame[2].map(Interval::mid), &placement.arm(&robot.legs[j]))
                 };
                 // 4w², 4x², 4y², 4z² from the diagonal of the rotation ±M.
                 let m: [[f64; 3]; 3] = std::array::from_fn(|i| std::array::from_fn(|j| cosines(i, j)));
-                let det = (0..3)
-                    .map(|i| {
-                        m[0][i]
-                            * (m[1][(i + 1) % 3] * m[2][(i + 2) % 3] - m[1][(i + 2) % 3] * m[2][(i + 1) % 3])
-                    })
-                    .sum::<f64>();
+                let det = dot(&m[0], &cross(&m[1], &m[2]));
                 let [a, b, c] = std::array::from_fn(|i| det.signum() * m[i][i]);
                 let four = [1.0 + a + b + c, 1.0 + a - b - c, 1.0 - a + b - c, 1.0 - a - b + c];
                 let e3: f64 =

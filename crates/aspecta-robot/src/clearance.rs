@@ -73,6 +73,14 @@ pub enum LinkPart {
 }
 
 impl LinkPart {
+    /// Whether the motor alone says where it is.
+    pub(crate) fn is_driven(self) -> bool {
+        match self {
+            Self::Crank | Self::Elbow => true,
+            Self::Rod | Self::End => false,
+        }
+    }
+
     /// What it is called.
     pub fn name(self) -> &'static str {
         match self {

@@ -104,9 +104,13 @@ impl Constraint {
     /// Whether it says something of the driven joints alone, wherever the platform is.
     pub fn is_of_drives(self, robot: &Robot) -> bool {
         match self {
-            Self::Limit(j, k) => {
-                matches!(robot.leg(j).limits[k], Limit::ActuatorAngle { .. } | Limit::ActuatorLength { .. })
-            }
+            Self::Limit(j, k) => match robot.leg(j).limits[k].as_clearance() {
+                Some(clearance) => clearance.part.is_driven(),
+                None => {
+                    let limit = &robot.leg(j).limits[k];
+                    matches!(limit, Limit::ActuatorAngle { .. } | Limit::ActuatorLength { .. })
+                }
+            },
             Self::Reach(_) | Self::RodAngle(..) | Self::Det => false,
         }
     }

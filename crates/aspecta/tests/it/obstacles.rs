@@ -4,6 +4,7 @@ use crate::random::Random;
 use aspecta::Kinematics;
 use aspecta::aspect::{Analysis, Options, analyze};
 use aspecta::certificate::Certificate;
+use aspecta::kinematics::constraints::Constraint;
 use aspecta::motion::{PathOptions, check_poses};
 use aspecta::num::Interval;
 use aspecta::paving::Control;
@@ -329,6 +330,10 @@ fn in_robot_files() {
     assert_eq!(solid, Solid::Wall { normal: [zero, one, zero], offset: Interval::point(-3.0) });
     assert_eq!(distance, zero);
     assert_eq!(robot.obstacles().len(), 1);
+    // Where the elbow is the motor alone says, where the end is the pose.
+    let driven: Vec<bool> =
+        Constraint::of(&robot).map(|constraint| constraint.is_of_drives(&robot)).collect();
+    assert_eq!(driven, [false, true, false, false, true, false, false]);
     // Out of reach of one leg, or of both.
     for (centre, count) in [([-8.0, -4.0], [2, 0]), ([0.0, 20.0], [0, 0]), ([4.5, 3.0], [2, 2])] {
         let legs = with("five-bar", &disc(centre, 1.0)).legs;
