@@ -7,6 +7,7 @@
 // A variant that is added leads to every place that must decide about it.
 #![warn(clippy::wildcard_enum_match_arm)]
 
+mod bodies;
 pub mod catalogue;
 pub mod chart;
 mod classes;
@@ -32,6 +33,7 @@ pub mod work;
 mod working_mode;
 
 pub use crate::legs::{Actuator, Prismatic, Revolute, Spherical, Strut};
+pub use bodies::{Body, BodyPair, Capsule, MOST_BODIES, MOST_PAIRS};
 pub use classes::{AXES, ClassSet, MAX_BOXES, MODES};
 pub use clearance::{Clearance, LinkPart, MOST_OBSTACLES, Solid};
 pub(crate) use file::{Fault, LegKeys};
@@ -82,6 +84,12 @@ pub struct Robot {
     /// Limits that two legs share.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub rod_angles: Vec<RodAngle>,
+    /// The thickness of its links and other bodies.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub bodies: Vec<Capsule>,
+    /// The bodies that keep clear of one another.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pairs: Vec<BodyPair>,
     /// Bounds the user sets on pose coordinates: `window[k]` for coordinate k, `None` where free.
     pub window: Vec<Option<(f64, f64)>>,
 }
@@ -154,6 +162,8 @@ impl Robot {
             platform,
             window: vec![None; platform.dof()],
             rod_angles: Vec::new(),
+            bodies: Vec::new(),
+            pairs: Vec::new(),
             legs,
         })
     }

@@ -94,6 +94,10 @@ impl Robot {
         holds(
             self.rod_angles.len() <= MOST_SHARED && self.rod_angles.iter().all(|limit| limit.fits(self)),
             "a limit of the angle between two rods makes no sense, or there are too many of them",
+        )?;
+        holds(
+            self.are_bodies_sound(),
+            "a body or a pair of bodies makes no sense, or there are too many of them",
         )
     }
 }

@@ -82,6 +82,11 @@ impl LegSet {
         Self(Self::of(first).0 | Self::of(second).0)
     }
 
+    /// The legs of either.
+    pub fn and(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
     /// Whether this leg belongs to it.
     pub fn holds(self, leg: LegIndex) -> bool {
         self.0 >> leg.index() & 1 == 1

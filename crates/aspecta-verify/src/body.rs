@@ -50,6 +50,8 @@ pub(super) struct LegState<T> {
     pub push: [T; 3],
     /// How far inside each limit it is.
     pub limits: Vec<T>,
+    /// A, B and C in the base, if any body is looked at: of a strut, which has no B, A twice.
+    pub joints: [[T; 3]; 3],
 }
 
 /// c · v with a constant c; zeros cost nothing.
@@ -218,7 +220,24 @@ impl<'a, T: Scalar, const D: usize> Body<'a, T, D> {
             *entry = (1..D).fold(f.gradient[0] * v[0], |sum, k| sum + f.gradient[k] * v[k]);
         }
         let push = std::array::from_fn(|k| if k < D { row[k] } else { T::zero() });
-        LegState { equation: f.value, slope, row, push, limits }
+        let joints = if self.robot.pairs.is_empty() { [[T::zero(); 3]; 3] } else { self.joints(j, span, q) };
+        LegState { equation: f.value, slope, row, push, limits, joints }
+    }
+
+    /// A, B and C of leg j in the base.
+    fn joints(&self, j: usize, d: &[T; D], q: T) -> [[T; 3]; 3] {
+        let leg = &self.robot.legs[j];
+        let elbow = kinds::elbow(&leg.actuator, q, || self.crank(j, q));
+        [[T::zero(); D], elbow, *d].map(|from_anchor| {
+            let v = out_of_frame(leg, &from_anchor);
+            std::array::from_fn(|k| if k < D { v[k] + T::constant(leg.anchor[k]) } else { T::zero() })
+        })
+    }
+
+    /// A point of the platform, in the base.
+    pub(super) fn point(&self, v: &[Interval; 3]) -> [T; 3] {
+        let arm = self.turn(v);
+        std::array::from_fn(|k| if k < D { self.origin[k] + arm[k] } else { T::zero() })
     }
 
     /// Returns how far inside a limit leg j is: a function of the configuration, positive strictly inside.

@@ -96,6 +96,9 @@ impl<'p, 'a, const D: usize> InMode<'p, 'a, D> {
                     let limit = &self.place.setting.robot.rod_angles[k];
                     std::iter::once(self.rod_angle(limit).range).collect()
                 }
+                Constraint::Apart(_, k) => {
+                    std::iter::once(self.clearance_of(&self.place.setting.robot.pairs[k])).collect()
+                }
                 // Its sign is not the mode's.
                 Constraint::Det => continue,
             };

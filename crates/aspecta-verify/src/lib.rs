@@ -46,6 +46,7 @@ mod cells;
 pub mod certificate;
 mod charts;
 mod claims;
+mod contact;
 mod count;
 mod curvature;
 mod determinant;
@@ -62,6 +63,7 @@ mod summit;
 #[cfg(test)]
 mod tests;
 mod text;
+mod turns;
 mod twins;
 mod verdict;
 

@@ -1,6 +1,7 @@
 //! Enclosures over one box of a chart, leg by leg.
 
 use super::body::{Body, LegState, Links, MOST, joint, slope_per_root};
+use super::contact::Point;
 use super::in_mode::InMode;
 use super::{right_angles, twins};
 use arrayvec::ArrayVec;
@@ -9,7 +10,7 @@ use aspecta_robot::WorkingMode;
 use aspecta_robot::chart::{Bend, Chain, Chart, Fold};
 use aspecta_robot::constraint::Scale;
 use aspecta_robot::num::{Interval, Jet, Scalar};
-use aspecta_robot::{Robot, Window};
+use aspecta_robot::{Body as RobotBody, Robot, Window};
 use std::cell::OnceCell;
 use std::rc::Rc;
 
@@ -127,6 +128,14 @@ impl Posture {
         self.there(self.at_middle.row[i], &self.over.row[i])
     }
 
+    /// A, B or C.
+    pub(super) fn joint(&self, which: usize) -> [Point; 3] {
+        std::array::from_fn(|k| Point {
+            over: self.over.joints[which][k],
+            at_middle: self.at_middle.joints[which][k],
+        })
+    }
+
     /// The like of ∂f/∂C.
     pub(super) fn push_at_middle(&self, k: usize) -> Interval {
         self.there(self.at_middle.push[k], &self.over.push[k])
@@ -185,6 +194,20 @@ impl<'a, const D: usize> Place<'a, D> {
             }
         }
         place
+    }
+
+    /// The ends of a body of the platform or of an obstacle.
+    pub(super) fn ends(&self, body: RobotBody) -> [[Point; 3]; 2] {
+        let ends = self.setting.robot.capsule(body).and_then(|capsule| capsule.ends);
+        ends.unwrap_or([[ZERO; 3]; 2]).map(|end| match body {
+            RobotBody::Platform(_) => {
+                let (over, at_middle) = (self.over.point(&end), self.at_middle.point(&end));
+                std::array::from_fn(|k| Point { over: over[k], at_middle: at_middle[k] })
+            }
+            RobotBody::Obstacle(_) | RobotBody::Crank(_) | RobotBody::Rod(_) => {
+                end.map(|x| Point { over: Function::fixed(x), at_middle: x })
+            }
+        })
     }
 
     /// Whether some leg certainly cannot close.

@@ -1,10 +1,13 @@
 //! The proof that P has no maximum in a box: tangent vectors along which all grows that can be the least.
 
 use super::body::MOST;
+use super::contact::{Apart, Line};
 use super::curvature::has_no_maximum;
 use super::direction::climbable;
 use super::in_mode::{Existence, InMode};
 use super::place::{ANY, Heights, ONE, OWN, Posture, ZERO, halves};
+use super::rods::Shared;
+use super::turns::{Joint, Turn, are_impossible};
 use aspecta_robot::AXES;
 use aspecta_robot::constraint::Constraint;
 use aspecta_robot::num::{Interval, Scalar, cross};
@@ -49,6 +52,9 @@ enum Held {
     Height,
 }
 
+/// Most choices of lines that part thin bodies.
+const MOST_CHOICES: usize = 512;
+
 /// Most parts into which ranges of h_j are cut.
 const PARTS: usize = 200;
 
@@ -86,13 +92,40 @@ impl<const D: usize> InMode<'_, '_, D> {
     }
 
     /// [`Self::is_summitless`], the h_j being what they are here.
+    ///
+    /// Of two thin bodies some line must part them: P is the greatest, over all choices of such lines, of the least of the functions chosen, so that
+    /// it has no maximum where none of these has one.
     fn climbs(&self, sign: f64) -> bool {
-        let constraints = self.constraints(sign);
-        let least = constraints.iter().fold(f64::INFINITY, |least, c| least.min(c.value.hi));
+        let (bounds, parted) = self.constraints(sign);
+        if parted.is_empty() {
+            return self.climbs_by(&bounds.iter().collect::<Vec<_>>(), sign);
+        }
+        let (known, places) =
+            (self.turns(sign), parted.iter().flat_map(|pair| pair.joints).collect::<Vec<_>>());
+        let lines: usize = parted.iter().map(|pair| pair.lines.len()).product();
+        lines <= MOST_CHOICES
+            && (0..lines).all(|mut choice| {
+                let line = |pair: &'_ Parted| {
+                    let line = choice % pair.lines.len();
+                    choice /= pair.lines.len();
+                    line
+                };
+                let chosen: Vec<usize> = parted.iter().map(line).collect();
+                let chosen = || parted.iter().zip(&chosen).map(|(pair, line)| &pair.lines[*line]);
+                let turns: Vec<Turn> =
+                    known.iter().copied().chain(chosen().flat_map(|line| line.1.iter().copied())).collect();
+                let all = || bounds.iter().chain(chosen().flat_map(|line| &line.0)).collect::<Vec<_>>();
+                are_impossible(&turns, &places) || self.climbs_by(&all(), sign)
+            })
+    }
+
+    /// Whether all of these that can be the least grow along one vector; det A is the first.
+    fn climbs_by(&self, bounds: &[&Bound], sign: f64) -> bool {
+        let least = bounds.iter().fold(f64::INFINITY, |least, c| least.min(c.value.hi));
         if least <= 0.0 {
             return true;
         }
-        let active: Vec<&Bound> = constraints.iter().filter(|c| c.value.lo <= least).collect();
+        let active: Vec<&Bound> = bounds.iter().filter(|c| c.value.lo <= least).copied().collect();
         let climbs = |held: Held, loose: &[usize]| {
             self.velocities(loose, held).is_some_and(|velocities| {
                 let growth = |c: &&Bound| velocities.iter().map(|v| v.growth(c)).collect();
@@ -102,7 +135,7 @@ impl<const D: usize> InMode<'_, '_, D> {
         let climbs_with = |loose: Vec<usize>| {
             climbs(Held::Height, &loose) || !loose.is_empty() && climbs(Held::Joint, &loose)
         };
-        let det_alone = active.len() == 1 && constraints[0].value.lo <= least;
+        let det_alone = active.len() == 1 && bounds[0].value.lo <= least;
         self.choices_of_loose().into_iter().any(climbs_with)
             || det_alone && !self.is_loose() && self.is_of_rows() && self.det_has_no_maximum(sign)
     }
@@ -119,8 +152,9 @@ impl<const D: usize> InMode<'_, '_, D> {
         has_no_maximum::<D>(self.place.setting, &self.place.y, (&over, &at_middle), turned, sign)
     }
 
-    /// The functions whose least is P, scaled, and gradients of increasing functions of them.
-    fn constraints(&self, sign: f64) -> Vec<Bound> {
+    /// The functions whose least is P, scaled, and gradients of increasing functions of them; and of pairs of thin bodies that may nearly
+    /// touch the lines, one of which parts each pair.
+    fn constraints(&self, sign: f64) -> (Vec<Bound>, Vec<Parted>) {
         let setting = self.place.setting;
         let scale = setting.scale;
         let exact = Interval::point;
@@ -145,14 +179,13 @@ impl<const D: usize> InMode<'_, '_, D> {
                     let by_root = constraint.counts_by_root(setting.robot);
                     Bound { value: if by_root { value.sqrt() } else { value }, gradient, height_of: None }
                 }
-                Constraint::RodAngle(_, k) => {
-                    let angle = self.rod_angle(&setting.robot.rod_angles[k]);
-                    let gradient = joined(&angle.along, &angle.by_joint);
-                    Bound { value: angle.range / size, gradient, height_of: None }
-                }
+                Constraint::RodAngle(_, k) => self.rod_angle(&setting.robot.rod_angles[k]).bound(size),
+                // They follow.
+                Constraint::Apart(..) => Bound { value: ANY, gradient: [ZERO; AXES + MOST], height_of: None },
             }
         };
-        let mut all: Vec<Bound> = Constraint::of(setting.robot).map(of).collect();
+        let single = |constraint: &Constraint| !matches!(constraint, Constraint::Apart(..));
+        let mut all: Vec<Bound> = Constraint::of(setting.robot).filter(single).map(of).collect();
         // det A, the last, comes first.
         all.rotate_right(1);
         for (a, &k) in setting.axes.iter().enumerate() {
@@ -167,7 +200,28 @@ impl<const D: usize> InMode<'_, '_, D> {
                 }
             }
         }
-        all
+        let mut parted = Vec::new();
+        for (k, pair) in setting.robot.pairs.iter().enumerate() {
+            let constraint = Constraint::Apart(pair.bodies, k);
+            let least = all.iter().fold(f64::INFINITY, |least, bound| least.min(bound.value.hi));
+            let size = exact(scale[constraint]);
+            match self.apart(pair, scale[constraint], least) {
+                Apart::Far => {}
+                Apart::Least(distances) => all.extend(distances.iter().map(|distance| {
+                    let bound = distance.bound(size);
+                    let by_root = constraint.counts_by_root(setting.robot);
+                    // Below zero a root says nothing.
+                    let by_root = by_root && bound.value.hi > 0.0;
+                    Bound { value: if by_root { bound.value.sqrt() } else { bound.value }, ..bound }
+                })),
+                Apart::Parted(lines, joints) => {
+                    let bounds = |line: Line| (line.ends.each_ref().map(|end| end.bound(size)), line.turns);
+                    let lines = possible(lines.into_iter().map(bounds).collect(), least);
+                    parted.extend(lines.map(|lines| Parted { lines, joints: *joints }));
+                }
+            }
+        }
+        (all, parted)
     }
 
     /// Sets of legs for which velocities are chosen with care: those whose B_jj may vanish must be among
@@ -232,6 +286,30 @@ impl<const D: usize> InMode<'_, '_, D> {
             Velocity { vector: joined(&along, &joints), level }
         };
         Some(directions(self.place.setting.axes.len(), &normals)?.into_iter().map(velocity).collect())
+    }
+}
+
+/// Two thin bodies that may nearly touch.
+struct Parted {
+    /// Lines, one of which must part them: the functions of which the lesser counts, and turns.
+    lines: Vec<([Bound; 2], Vec<Turn>)>,
+    /// The ends of both.
+    joints: [Joint; 4],
+}
+
+/// Of lines that part two bodies those that may be the best; none at all if something else is always less.
+fn possible(mut lines: Vec<([Bound; 2], Vec<Turn>)>, least: f64) -> Option<Vec<([Bound; 2], Vec<Turn>)>> {
+    let lowest = |ends: &[Bound; 2]| ends[0].value.lo.min(ends[1].value.lo);
+    let highest = |ends: &[Bound; 2]| ends[0].value.hi.min(ends[1].value.hi);
+    let best = lines.iter().map(|line| lowest(&line.0)).fold(f64::NEG_INFINITY, f64::max);
+    lines.retain(|line| highest(&line.0) >= best);
+    (best <= least).then_some(lines)
+}
+
+impl Shared {
+    /// As one of the functions whose least is P, `size` being its scale.
+    fn bound(&self, size: Interval) -> Bound {
+        Bound { value: self.range / size, gradient: joined(&self.along, &self.by_joint), height_of: None }
     }
 }
 

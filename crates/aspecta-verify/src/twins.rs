@@ -120,7 +120,7 @@ impl<const D: usize> Place<'_, D> {
         }
         let square = |k: usize| (self.y[k] + leg.attachment[k] - leg.anchor[k]).square();
         let angle = (square(0) + square(1)) / (crank.square() + rod.square()) - Interval::point(1.0);
-        let free = robot.legs.iter().all(|leg| leg.limits.is_empty());
+        let free = robot.legs.iter().all(|leg| leg.limits.is_empty()) && robot.pairs.is_empty();
         let grows = angle.is_negative() && free;
         if self.setting.vanishes_in(mode) {
             return grows || robot.rod_angles.iter().any(|limit| limit.min_cos.is_some());

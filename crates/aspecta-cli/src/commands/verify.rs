@@ -112,5 +112,7 @@ fn is_same(a: &Robot, b: &Robot) -> bool {
         shared.iter_mut().for_each(|limit| limit.legs.sort_unstable());
         shared
     };
-    (a.platform, legs(a), shared(a), &a.window) == (b.platform, legs(b), shared(b), &b.window)
+    let bodies = |robot: &Robot| (robot.bodies.clone(), robot.pairs.clone());
+    (a.platform, legs(a), shared(a), bodies(a), &a.window)
+        == (b.platform, legs(b), shared(b), bodies(b), &b.window)
 }

@@ -19,6 +19,14 @@ pub fn print(out: &mut dyn Write, robot: &Robot) -> io::Result<()> {
         writeln!(out, "  leg {}: {}", k + 1, of_leg(leg, robot))?;
     }
     robot.rod_angles.iter().try_for_each(|limit| writeln!(out, "  {}", limit.in_words()))?;
+    for capsule in &robot.bodies {
+        writeln!(out, "  body: {}", capsule.in_words(&robot.length_unit))?;
+    }
+    if !robot.bodies.is_empty() {
+        let pairs: Vec<String> = robot.pairs.iter().map(ToString::to_string).collect();
+        let pairs = if pairs.is_empty() { "no two of them can meet".to_owned() } else { pairs.join("; ") };
+        writeln!(out, "  kept apart: {pairs}")?;
+    }
     let coordinates = robot.platform.coordinates().iter().zip(&robot.window);
     let cut = coordinates.filter_map(|(c, range)| {
         range.map(|(lo, hi)| format!("{} {} to {}", c.name, number(lo), number(hi)))

@@ -15,7 +15,7 @@ use std::sync::atomic::Ordering;
 /// The first argument of a command: a robot, or a map.
 pub enum Source {
     /// A robot, whose map is to be computed.
-    Robot(Robot),
+    Robot(Box<Robot>),
     /// A map that `aspecta domains --save` wrote.
     Map(Box<Map>),
 }
@@ -61,7 +61,7 @@ impl Source {
     pub fn new(name_or_path: &str) -> Result<Self, Failure> {
         if !input::is_map(name_or_path.as_ref()) {
             let robot = input::robot(name_or_path).map_err(|failure| neither(name_or_path, failure))?;
-            return Ok(Self::Robot(robot));
+            return Ok(Self::Robot(Box::new(robot)));
         }
         let refused =
             |error: MapError| Failure::Input(format!("`{name_or_path}`: {}", advice::of_map(&error)));

@@ -46,13 +46,13 @@ pub(super) fn margin<T: Scalar, const D: usize>(clearance: &Clearance, at: &LegA
 }
 
 /// The links of a leg in its frame: B − A and C − B; of a strut, which has no B, all of it is the rod.
-struct Links<T, const D: usize> {
-    crank: [T; D],
-    rod: [T; D],
+pub(super) struct Links<T, const D: usize> {
+    pub crank: [T; D],
+    pub rod: [T; D],
 }
 
 impl<T: Scalar, const D: usize> Links<T, D> {
-    fn of(at: &LegAt<'_, T, D>, sh: T) -> Self {
+    pub fn of(at: &LegAt<'_, T, D>, sh: T) -> Self {
         if at.leg.actuator.rigid_rod().is_none() {
             return Self { crank: [T::zero(); D], rod: *at.span };
         }
@@ -62,7 +62,7 @@ impl<T: Scalar, const D: usize> Links<T, D> {
         Self { crank: each!(|k| at.span[k] - rod[k]), rod }
     }
 
-    fn crank_square(&self, leg: &Leg) -> T {
+    pub fn crank_square(&self, leg: &Leg) -> T {
         match leg.actuator.as_revolute() {
             Some(links) => T::constant(links.crank.square()),
             None => sum_of_squares(&self.crank),
@@ -70,7 +70,7 @@ impl<T: Scalar, const D: usize> Links<T, D> {
     }
 
     /// ‖∂f/∂d‖² is four times that of the rod.
-    fn rod_square(&self, leg: &Leg) -> T {
+    pub fn rod_square(&self, leg: &Leg) -> T {
         match leg.actuator.rigid_rod() {
             Some(_) => leg.actuator.force(&self.rod).square().scale(Interval::point(0.25)),
             None => sum_of_squares(&self.rod),
@@ -79,6 +79,6 @@ impl<T: Scalar, const D: usize> Links<T, D> {
 }
 
 /// The square of the distance of the origin from the points a − t e, 0 ≤ t ≤ 1, of a link with ‖e‖² = `square`.
-fn from_link<T: Scalar, const D: usize>(a: &[T; D], e: &[T; D], square: T) -> T {
+pub(super) fn from_link<T: Scalar, const D: usize>(a: &[T; D], e: &[T; D], square: T) -> T {
     sum_of_squares(a) - square * (dot(a, e) / square).clamped_square()
 }

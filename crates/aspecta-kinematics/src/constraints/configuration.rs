@@ -1,7 +1,8 @@
 //! The limits of the machine at one configuration.
 
+use super::bodies::TwoBodies;
 use super::rods::TwoLegs;
-use super::{Constraint, LegAt, margin, unit};
+use super::{Constraint, Feature, LegAt, margin, unit};
 use crate::modal::{LegClosure, closures};
 use crate::placement::Placement;
 use aspecta_robot::WorkingMode;
@@ -38,6 +39,28 @@ impl<'a, T: Scalar, const D: usize, const N: usize> Configuration<'a, T, D, N> {
         TwoLegs(legs.map(|j| (self.leg(j.index()), self.height(j.index()))))
     }
 
+    /// Pair k of bodies.
+    fn bodies(&self, k: usize) -> TwoBodies<T, D> {
+        let leg = |j: LegIndex| (self.leg(j.index()), self.height(j.index()));
+        TwoBodies::of(self.robot, &self.robot.pairs[k], self.placement, leg)
+    }
+
+    /// One of the pieces of the margin of pair k of bodies. Their unit is 1.
+    pub fn feature(&self, k: usize, feature: Feature) -> T {
+        self.bodies(k).feature(feature)
+    }
+
+    /// The ends of the bodies of pair k, numbered as [`Feature::End`] is.
+    pub fn ends(&self, k: usize) -> [[T; D]; 4] {
+        let bodies = self.bodies(k);
+        std::array::from_fn(|end| bodies.end(end))
+    }
+
+    /// Positive only where the bodies of pair k are clear of one another: it costs less than their margin.
+    pub fn margin_of_surroundings(&self, k: usize) -> T {
+        self.bodies(k).margin_of_surroundings()
+    }
+
     /// Returns how far inside a limit it is; only the sign has a meaning. Of singularities, which need more
     /// than this, nothing is said.
     pub fn margin(&self, constraint: Constraint) -> T {
@@ -49,6 +72,7 @@ impl<'a, T: Scalar, const D: usize, const N: usize> Configuration<'a, T, D, N> {
                 self.placement,
             ),
             Constraint::RodAngle(legs, k) => self.two(legs).margin(&self.robot.rod_angles[k]),
+            Constraint::Apart(_, k) => self.bodies(k).margin(),
             Constraint::Reach(_) | Constraint::Det => T::constant(Interval::ENTIRE),
         }
     }
@@ -61,18 +85,16 @@ impl<'a, T: Scalar, const D: usize, const N: usize> Configuration<'a, T, D, N> {
                 unit(&self.robot.leg(j).limits[k], &self.leg(j.index()), self.height(j.index()))
             }
             Constraint::RodAngle(legs, k) => self.two(legs).unit(&self.robot.rod_angles[k]),
+            Constraint::Apart(..) => T::constant(Interval::point(1.0)),
             Constraint::Reach(_) | Constraint::Det => T::constant(Interval::ENTIRE),
         }
     }
 
     /// The derivative of margin / unit with respect to s h of leg `of`, on which it depends, at a fixed pose. `value` is what it is of
-    /// functions of the pose: they count as numbers.
+    /// functions of the pose: they count as numbers. Of the margin of two bodies [`Self::feature_by_height`] has the pieces.
     pub fn by_height<U: Scalar>(&self, constraint: Constraint, of: usize, value: impl Fn(T) -> U) -> U {
         let still = |f: T| Jet::<U, 1>::fixed(value(f));
-        let height = |j: usize| match j == of {
-            true => Jet::variable(value(self.height(j)), 0),
-            false => still(self.height(j)),
-        };
+        let height = |j: usize| self.varied(j, of, &value);
         match constraint {
             Constraint::Limit(j, k) => {
                 // One by one: as a tuple they would be copied twice, which is seen in the proof that nothing is hidden.
@@ -89,7 +111,42 @@ impl<'a, T: Scalar, const D: usize, const N: usize> Configuration<'a, T, D, N> {
                 let (two, limit) = (TwoLegs([of(0), of(1)]), &self.robot.rod_angles[k]);
                 (two.margin(limit) / two.unit(limit)).gradient[0]
             }
+            Constraint::Apart(_, k) => self.bodies_by_height(k, of, value).margin().gradient[0],
             Constraint::Reach(_) | Constraint::Det => U::constant(Interval::ENTIRE),
+        }
+    }
+
+    /// The like of [`Self::by_height`] for [`Self::feature`].
+    pub fn feature_by_height<U: Scalar>(
+        &self,
+        k: usize,
+        feature: Feature,
+        of: usize,
+        value: impl Fn(T) -> U,
+    ) -> U {
+        self.bodies_by_height(k, of, value).feature(feature).gradient[0]
+    }
+
+    /// Pair k of bodies with s h of leg `of` as the only variable.
+    fn bodies_by_height<U: Scalar>(
+        &self,
+        k: usize,
+        of: usize,
+        value: impl Fn(T) -> U,
+    ) -> TwoBodies<Jet<U, 1>, D> {
+        let still = |f: T| Jet::<U, 1>::fixed(value(f));
+        let (placement, legs) = (self.placement.map(still), self.legs.each_ref().map(|leg| leg.map(still)));
+        let leg = |j: LegIndex| {
+            (LegAt::of(self.robot.leg(j), &legs[j.index()]), self.varied(j.index(), of, &value))
+        };
+        TwoBodies::of(self.robot, &self.robot.pairs[k], &placement, leg)
+    }
+
+    /// s h of leg j, a variable if it is leg `of`.
+    fn varied<U: Scalar>(&self, j: usize, of: usize, value: &impl Fn(T) -> U) -> Jet<U, 1> {
+        match j == of {
+            true => Jet::variable(value(self.height(j)), 0),
+            false => Jet::fixed(value(self.height(j))),
         }
     }
 

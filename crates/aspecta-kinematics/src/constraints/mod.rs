@@ -9,6 +9,7 @@
 //! coordinate, the same in all modes, and change with the question that is asked. Where P is formed, where
 //! boundaries are drawn and where solutions and paths are told to be within limits they stand beside this list.
 
+mod bodies;
 mod bound;
 mod clearance;
 mod configuration;
@@ -16,8 +17,10 @@ mod demand;
 mod limit;
 mod margins;
 mod rods;
+mod turn;
 mod window;
 
+pub use bodies::{Beside, Feature, Line};
 pub use bound::Bound;
 pub(crate) use bound::broken_limits;
 pub(crate) use configuration::within_limits;
@@ -25,6 +28,7 @@ pub use configuration::{Configuration, is_limited};
 pub use demand::{Constraints, Demand};
 pub use limit::{LegAt, margin, unit};
 pub use margins::{Margins, measures};
+pub use turn::{Joint, Turn};
 pub(crate) use window::window_margins;
 
 pub use aspecta_robot::constraint::{Constraint, Kind, Scale, constraint, if_any};

@@ -8,7 +8,7 @@ pub use named::{constraint, if_any};
 pub use scale::Scale;
 
 use crate::leg_index::{as_index, as_indices};
-use crate::{Clearance, LegIndex, LegSet, Limit, Robot};
+use crate::{Body, Clearance, LegIndex, LegSet, Limit, Robot};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -22,6 +22,8 @@ pub enum Constraint {
     Limit(#[serde(with = "as_index")] LegIndex, usize),
     /// Limit k of those that two legs share: the angle between their rods.
     RodAngle(#[serde(with = "as_indices")] [LegIndex; 2], usize),
+    /// Pair k of bodies, which keep clear of one another.
+    Apart([Body; 2], usize),
     /// det A.
     Det,
 }
@@ -47,14 +49,15 @@ impl Constraint {
             reach.into_iter().chain((0..leg.limits.len()).map(move |k| Self::Limit(j, k)))
         };
         let shared = robot.rod_angles.iter().enumerate().map(|(k, limit)| Self::RodAngle(limit.legs, k));
-        robot.legs.iter().enumerate().flat_map(of_leg).chain(shared).chain([Self::Det])
+        let apart = robot.pairs.iter().enumerate().map(|(k, pair)| Self::Apart(pair.bodies, k));
+        robot.legs.iter().enumerate().flat_map(of_leg).chain(shared).chain(apart).chain([Self::Det])
     }
 
     /// Returns the kind of configuration that it excludes.
     pub fn kind(self) -> Kind {
         match self {
             Self::Reach(j) => Kind::Serial(j),
-            Self::Limit(..) | Self::RodAngle(..) => Kind::Limit,
+            Self::Limit(..) | Self::RodAngle(..) | Self::Apart(..) => Kind::Limit,
             Self::Det => Kind::Parallel,
         }
     }
@@ -70,15 +73,18 @@ impl Constraint {
             Self::Reach(_) => LegSet::NONE,
             Self::Limit(j, _) => LegSet::of(j),
             Self::RodAngle(legs, _) => LegSet::of_two(legs),
+            Self::Apart(bodies, _) => Body::legs(bodies),
             Self::Det => LegSet::ALL,
         }
     }
 
-    /// Whether its root is one of the functions whose least is P (docs/theory.md, 5): of H_j, and of what is left to an obstacle.
+    /// Whether its root is one of the functions whose least is P (docs/theory.md, 5): of H_j, and of what is left to an obstacle or between
+    /// two bodies that are not thin.
     pub fn counts_by_root(self, robot: &Robot) -> bool {
         match self {
             Self::Reach(_) => true,
             Self::Limit(j, k) => robot.leg(j).limits[k].as_clearance().is_some(),
+            Self::Apart(_, k) => !robot.pairs[k].is_thin(),
             Self::RodAngle(..) | Self::Det => false,
         }
     }
@@ -87,7 +93,7 @@ impl Constraint {
     pub fn leg(self) -> Option<LegIndex> {
         match self {
             Self::Reach(j) | Self::Limit(j, _) => Some(j),
-            Self::RodAngle(..) | Self::Det => None,
+            Self::RodAngle(..) | Self::Apart(..) | Self::Det => None,
         }
     }
 
@@ -97,6 +103,7 @@ impl Constraint {
             Self::Reach(j) => j.index(),
             Self::Limit(j, k) => j.index() + k,
             Self::RodAngle([j, _], k) => j.index() + k + 1,
+            Self::Apart(_, k) => k,
             Self::Det => 0,
         }
     }
@@ -111,6 +118,7 @@ impl Constraint {
                     matches!(limit, Limit::ActuatorAngle { .. } | Limit::ActuatorLength { .. })
                 }
             },
+            Self::Apart(bodies, _) => bodies.into_iter().all(Body::is_driven),
             Self::Reach(_) | Self::RodAngle(..) | Self::Det => false,
         }
     }
@@ -127,7 +135,7 @@ impl Constraint {
                     None => format!("{} limit of leg {j}", limit.joint()),
                 }
             }
-            Self::Reach(_) | Self::RodAngle(..) | Self::Det => self.to_string(),
+            Self::Reach(_) | Self::RodAngle(..) | Self::Apart(..) | Self::Det => self.to_string(),
         }
     }
 }
@@ -139,6 +147,7 @@ impl fmt::Display for Constraint {
             Self::Reach(j) => write!(f, "H_{j}"),
             Self::Limit(j, k) => write!(f, "joint limit {} of leg {j}", k + 1),
             Self::RodAngle([i, j], _) => write!(f, "limit of the angle between the rods of legs {i} and {j}"),
+            Self::Apart([first, second], _) => write!(f, "contact of {first} and {second}"),
             Self::Det => f.write_str("det A"),
         }
     }

@@ -1,7 +1,7 @@
 //! Constraints as JSON names them, legs and limits counted from 1.
 
 use super::Constraint;
-use crate::LegIndex;
+use crate::{Body, LegIndex, bodies};
 use serde::{Serialize, Serializer};
 
 #[derive(Serialize)]
@@ -20,6 +20,10 @@ enum Named {
     RodAngle {
         legs: [LegIndex; 2],
     },
+    Contact {
+        #[serde(serialize_with = "bodies::names")]
+        bodies: [Body; 2],
+    },
 }
 
 impl From<Constraint> for Named {
@@ -29,6 +33,7 @@ impl From<Constraint> for Named {
             Constraint::Reach(leg) => Self::Reach { leg },
             Constraint::Limit(leg, limit) => Self::Limit { leg, limit: limit + 1 },
             Constraint::RodAngle(legs, _) => Self::RodAngle { legs },
+            Constraint::Apart(bodies, _) => Self::Contact { bodies },
         }
     }
 }

@@ -20,6 +20,9 @@ pub struct Scale {
     /// The scales of limits that two legs share.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub rod_angles: Vec<f64>,
+    /// The scales of the pairs of bodies.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pairs: Vec<f64>,
 }
 
 impl Scale {
@@ -31,6 +34,7 @@ impl Scale {
             reach: vec![1.0; robot.dof()],
             limits,
             rod_angles: vec![1.0; robot.rod_angles.len()],
+            pairs: vec![1.0; robot.pairs.len()],
         }
     }
 }
@@ -43,6 +47,7 @@ impl Index<Constraint> for Scale {
             Constraint::Reach(j) => &self.reach[j.index()],
             Constraint::Limit(j, k) => &self.limits[j.index()][k],
             Constraint::RodAngle(_, k) => &self.rod_angles[k],
+            Constraint::Apart(_, k) => &self.pairs[k],
             Constraint::Det => &self.det,
         }
     }
@@ -54,6 +59,7 @@ impl IndexMut<Constraint> for Scale {
             Constraint::Reach(j) => &mut self.reach[j.index()],
             Constraint::Limit(j, k) => &mut self.limits[j.index()][k],
             Constraint::RodAngle(_, k) => &mut self.rod_angles[k],
+            Constraint::Apart(_, k) => &mut self.pairs[k],
             Constraint::Det => &mut self.det,
         }
     }

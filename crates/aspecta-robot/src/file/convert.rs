@@ -41,6 +41,7 @@ pub(super) fn robot(file: &RobotFile, text: &str) -> Result<Robot, Fault> {
         }
     }
     robot.rod_angles = context.rod_angles(file)?;
+    context.add_bodies(file, &mut robot)?;
     context.add_obstacles(file, &mut robot)?;
     check_reach(file, &robot)?;
     Ok(robot)

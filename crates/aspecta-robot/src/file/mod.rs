@@ -1,6 +1,7 @@
 //! Robot files: TOML in, a [`Robot`] or a message that says what to mend out. `docs/robot-files.md`
 //! describes the format.
 
+mod bodies;
 mod convert;
 mod error;
 mod format;

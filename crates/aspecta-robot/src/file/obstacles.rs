@@ -1,87 +1,217 @@
 //! Obstacles of a robot file.
 
+use super::bodies::out_of_place;
 use super::convert::Context;
 use super::error::Problem;
 use super::format::{At, ObstacleTable, RobotFile, hint};
 use super::locate::Fault;
 use crate::frame::{dot, unit};
 use crate::num::Interval;
-use crate::{Clearance, Leg, LegIndex, Limit, LinkPart, MOST_OBSTACLES, Platform, Robot, Solid};
+use crate::{
+    Body, Capsule, Clearance, Leg, LegIndex, Limit, LinkPart, MOST_BODIES, MOST_OBSTACLES, MOST_PAIRS,
+    Platform, Robot, Solid,
+};
+
+/// What an obstacle is.
+enum Shape {
+    /// What a limit of each leg looks at.
+    Solid(Solid),
+    /// A body with two ends.
+    Bar([[Interval; 3]; 2], Interval),
+}
 
 impl Context<'_> {
-    /// Gives each leg of a robot, which is complete but for them, its limits at the obstacles.
+    /// Keeps a robot, which is complete but for them, clear of the obstacles.
     pub fn add_obstacles(&self, file: &RobotFile, robot: &mut Robot) -> Result<(), Fault> {
         for (k, table) in file.obstacles.iter().enumerate() {
-            let out_of_place = |reason: String| Fault::new(&table.span, Problem::OutOfPlace { reason });
             if k >= MOST_OBSTACLES {
-                return Err(out_of_place(format!("a robot has at most {MOST_OBSTACLES} obstacles")));
+                return Err(out_of_place(
+                    &table.span,
+                    format!("a robot has at most {MOST_OBSTACLES} obstacles"),
+                ));
             }
             if self.platform == Platform::TurningBody {
                 let reason = "the links of a `turning-body` are arcs round its centre, of any radius: they have no obstacles";
-                return Err(out_of_place(reason.into()));
+                return Err(out_of_place(&table.span, reason.into()));
             }
-            let solid = self.solid(table)?;
-            let clearance = match &table.value.clearance {
-                None => Interval::point(0.0),
-                Some(number) if number.value.0 == 0.0 => Interval::point(0.0),
-                Some(number) if number.value.0 < 0.0 => {
-                    let reason = "a clearance is not negative; 0, or leave it out, where the links may come as near as they like";
-                    return Err(Fault::new(&number.span, Problem::OutOfPlace { reason: reason.into() }));
+            let clearance = self.not_negative(&table.value.clearance, "a clearance")?;
+            let layer = table.value.layer.as_ref().map(|layer| self.layer(layer)).transpose()?;
+            let near = Near { number: k + 1, clearance, layer };
+            match self.shape(table)? {
+                Shape::Solid(solid) => near.keep_links_clear(robot, solid, table)?,
+                Shape::Bar(ends, radius) => {
+                    let links = links(robot);
+                    self.keep_clear_of_bar(robot, &near, (ends, radius), links, table)?;
                 }
-                Some(number) => self.length(number)?,
-            };
-            for (j, leg) in robot.legs.iter_mut().enumerate() {
-                if is_at_its_anchor(&solid, clearance, leg) {
-                    let leg = LegIndex::new(j);
-                    let reason = format!(
-                        "it reaches the anchor of leg {leg}, so that no configuration is clear of it: move it, or lessen its clearance"
-                    );
-                    return Err(out_of_place(reason));
-                }
-                let of = |&part: &LinkPart| Clearance { obstacle: k + 1, solid, part, distance: clearance };
-                let touching =
-                    solid.parts_of(leg).iter().map(of).filter(|clearance| clearance.matters_to(leg));
-                let limits: Vec<Limit> = touching.map(Limit::Clearance).collect();
-                leg.limits.extend(limits);
             }
         }
         Ok(())
     }
 
-    fn solid(&self, table: &At<ObstacleTable>) -> Result<Solid, Fault> {
+    /// Adds a bar, and the pairs of it and of these bodies.
+    fn keep_clear_of_bar(
+        &self,
+        robot: &mut Robot,
+        near: &Near,
+        (ends, radius): ([[Interval; 3]; 2], Interval),
+        bodies: Vec<Capsule>,
+        table: &At<ObstacleTable>,
+    ) -> Result<(), Fault> {
+        let body = Body::Obstacle(near.number);
+        let bar = Capsule { body, radius, layer: near.layer.unwrap_or(0), ends: Some(ends) };
+        robot.bodies.push(bar);
+        let there = bodies.iter().filter(|capsule| near.is_in_layer_of(capsule));
+        let pairs: Vec<_> = there.filter_map(|capsule| robot.pair([capsule, &bar], near.clearance)).collect();
+        self.check_pairs(&table.span, robot, &pairs)?;
+        robot.pairs.extend(pairs);
+        if robot.pairs.len() > MOST_PAIRS || robot.bodies.len() > MOST_BODIES {
+            let reason = format!(
+                "a robot has at most {MOST_BODIES} bodies and {MOST_PAIRS} pairs of them that can meet"
+            );
+            return Err(out_of_place(&table.span, reason));
+        }
+        Ok(())
+    }
+
+    fn shape(&self, table: &At<ObstacleTable>) -> Result<Shape, Fault> {
         let missing =
             |key: &str| Fault::new(&table.span, Problem::MissingKey { key: key.into(), hint: hint(key) });
-        let ObstacleTable { centre, radius, face, normal, .. } = &table.value;
-        match (centre, radius, face, normal) {
-            (Some(centre), Some(radius), None, None) => {
-                Ok(Solid::Ball { centre: self.vector(centre)?, radius: self.length(radius)? })
+        let ObstacleTable { centre, ends, radius, face, normal, .. } = &table.value;
+        match (centre, ends, radius, face, normal) {
+            (Some(centre), None, Some(radius), None, None) => {
+                let solid = Solid::Ball { centre: self.vector(centre)?, radius: self.length(radius)? };
+                Ok(Shape::Solid(solid))
             }
-            (None, None, Some(face), Some(given)) => {
+            (None, Some(ends), radius, None, None) => {
+                let both = self.ends(ends)?;
+                if both[0] == both[1] {
+                    let reason = "the ends of a bar are two points; a disc or ball has a `centre`";
+                    return Err(out_of_place(&ends.span, reason.into()));
+                }
+                Ok(Shape::Bar(both, self.not_negative(radius, "a radius")?))
+            }
+            (None, None, None, Some(face), Some(given)) => {
                 let normal =
                     unit(&self.vector(given)?).ok_or(Fault::new(&given.span, Problem::ZeroVector))?;
-                Ok(Solid::Wall { normal, offset: dot(&normal, &self.vector(face)?) })
+                Ok(Shape::Solid(Solid::Wall { normal, offset: dot(&normal, &self.vector(face)?) }))
             }
-            (Some(_), None, None, None) => Err(missing("radius")),
-            (None, None, Some(_), None) => Err(missing("normal")),
-            (of_ball, size, of_wall, out) => {
-                let both = (of_ball.is_some() || size.is_some()) && (of_wall.is_some() || out.is_some());
+            (Some(_), None, None, None, None) => Err(missing("radius")),
+            (None, None, None, Some(_), None) => Err(missing("normal")),
+            (centre, ends, radius, face, normal) => {
+                let of_wall = face.is_some() || normal.is_some();
+                let both = centre.is_some() && ends.is_some()
+                    || of_wall && (centre.is_some() || ends.is_some() || radius.is_some());
                 let reason = match both {
                     true => {
-                        "it has keys of two kinds: a disc or ball has `centre` and `radius`, a wall `face` and `normal`; leave those of one out"
+                        "it has keys of two kinds: a disc or ball has `centre` and `radius`, a bar `ends` and `radius`, a wall `face` and `normal`; leave those of one out"
                     }
                     false => {
-                        "an obstacle is a disc or ball, `centre` and `radius`, or a wall, `face` and `normal`"
+                        "an obstacle is a disc or ball, `centre` and `radius`, a bar, `ends` and `radius`, or a wall, `face` and `normal`"
                     }
                 };
-                Err(Fault::new(&table.span, Problem::OutOfPlace { reason: reason.into() }))
+                Err(out_of_place(&table.span, reason.into()))
             }
         }
     }
 }
 
-/// Whether the leg, which stands on its anchor, is never clear of it. Sliders move away from theirs.
-fn is_at_its_anchor(solid: &Solid, clearance: Interval, leg: &Leg) -> bool {
+/// What is said of any obstacle.
+struct Near {
+    number: usize,
+    clearance: Interval,
+    /// Its layer; none if it is in all.
+    layer: Option<i32>,
+}
+
+impl Near {
+    fn is_in_layer_of(&self, capsule: &Capsule) -> bool {
+        self.layer.is_none_or(|layer| layer == capsule.layer)
+    }
+
+    /// Gives each leg its limits at the obstacle.
+    fn keep_links_clear(
+        &self,
+        robot: &mut Robot,
+        solid: Solid,
+        table: &At<ObstacleTable>,
+    ) -> Result<(), Fault> {
+        self.keep_platform_clear(robot, &solid, table)?;
+        let links = links(robot);
+        for (j, leg) in robot.legs.iter_mut().enumerate() {
+            let index = LegIndex::new(j);
+            for &part in solid.parts_of(leg) {
+                // The elbow of a slider is an end of its rod.
+                let has_crank = leg.actuator.kind().facts().has_elbow;
+                let body = if part.is_driven() && has_crank { Body::Crank(index) } else { Body::Rod(index) };
+                let Some(link) = links.iter().find(|link| link.body == body) else { continue };
+                if !self.is_in_layer_of(link) {
+                    continue;
+                }
+                let distance =
+                    if link.radius.hi == 0.0 { self.clearance } else { self.clearance + link.radius };
+                if is_at_its_anchor(&solid, distance, leg, part) {
+                    let reason = format!(
+                        "it reaches the anchor of leg {index}, so that no configuration is clear of it: move it, or lessen its clearance"
+                    );
+                    return Err(out_of_place(&table.span, reason));
+                }
+                let clearance = Clearance { obstacle: self.number, solid, part, distance };
+                if clearance.matters_to(leg) {
+                    leg.limits.push(Limit::Clearance(clearance));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds the pairs of bodies of the platform and a disc or ball.
+    fn keep_platform_clear(
+        &self,
+        robot: &mut Robot,
+        solid: &Solid,
+        table: &At<ObstacleTable>,
+    ) -> Result<(), Fault> {
+        let bodies = robot.bodies.iter().filter(|capsule| matches!(capsule.body, Body::Platform(_)));
+        let bodies: Vec<Capsule> = bodies.filter(|capsule| self.is_in_layer_of(capsule)).copied().collect();
+        match solid {
+            _ if bodies.is_empty() => {}
+            Solid::Ball { centre, radius } => {
+                let (body, layer) = (Body::Obstacle(self.number), self.layer.unwrap_or(0));
+                let ball = Capsule { body, radius: *radius, layer, ends: Some([*centre; 2]) };
+                let pairs: Vec<_> = bodies
+                    .iter()
+                    .filter_map(|capsule| robot.pair([capsule, &ball], self.clearance))
+                    .collect();
+                robot.bodies.push(ball);
+                robot.pairs.extend(pairs);
+            }
+            Solid::Wall { .. } => {
+                let reason = "bodies of the platform do not keep clear of walls yet: put bars there, `ends` and `radius`";
+                return Err(out_of_place(&table.span, reason.into()));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// All links and bodies of the platform; of links without a radius the axes.
+fn links(robot: &Robot) -> Vec<Capsule> {
+    let mut all = robot.bodies.clone();
+    all.retain(|capsule| !matches!(capsule.body, Body::Obstacle(_)));
+    for (j, leg) in robot.legs.iter().enumerate() {
+        let (facts, j) = (leg.actuator.kind().facts(), LegIndex::new(j));
+        for (exists, body) in [(facts.has_elbow, Body::Crank(j)), (facts.has_rod, Body::Rod(j))] {
+            if exists && robot.capsule(body).is_none() {
+                all.push(Capsule { body, radius: Interval::point(0.0), layer: 0, ends: None });
+            }
+        }
+    }
+    all
+}
+
+/// Whether this part of the leg, which stands on its anchor, is never clear of it. Sliders move away from theirs.
+fn is_at_its_anchor(solid: &Solid, distance: Interval, leg: &Leg, part: LinkPart) -> bool {
     let facts = leg.actuator.kind().facts();
-    let stands = facts.has_elbow || facts.is_positive;
-    stands && !solid.margin_of(&leg.anchor, clearance).is_positive()
+    let stands = part.is_driven() && facts.has_elbow || facts.is_positive;
+    stands && !solid.margin_of(&leg.anchor, distance).is_positive()
 }

@@ -1,6 +1,6 @@
 //! Numbers with an error bound: midpoint and radius.
 
-use super::{Interval, Scalar};
+use super::{Interval, Nearest, Scalar, TwoLinks};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Half the distance from 1 to the next double: a result rounded to nearest is off by at most this share of
@@ -127,6 +127,15 @@ impl Scalar for Ball {
     }
     fn clamped_square(self) -> Self {
         Interval::from(self).clamped_square().into()
+    }
+    fn greatest(self, other: Self) -> Self {
+        Interval::from(self).greatest(other.into()).into()
+    }
+    fn choose(self, yes: Self, no: Self) -> Self {
+        Interval::from(self).choose(yes.into(), no.into()).into()
+    }
+    fn nearest<const D: usize>(links: &TwoLinks<Self, D>) -> Nearest<Self> {
+        Interval::nearest(&links.map(Interval::from)).map(Self::from)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Closed intervals with outward rounding.
 
-use super::Scalar;
 use super::trig::{self, Turned};
+use super::{Nearest, Scalar, TwoLinks};
 use serde::{Deserialize, Serialize};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -204,6 +204,22 @@ impl Scalar for Interval {
             t => t + t - Self::point(1.0),
         };
         Self { lo: at(self.lo).lo, hi: at(self.hi).hi }
+    }
+
+    fn greatest(self, other: Self) -> Self {
+        Self { lo: self.lo.max(other.lo), hi: self.hi.max(other.hi) }
+    }
+
+    fn choose(self, yes: Self, no: Self) -> Self {
+        match self.sign() {
+            1 => yes,
+            -1 => no,
+            _ => yes.hull(no),
+        }
+    }
+
+    fn nearest<const D: usize>(links: &TwoLinks<Self, D>) -> Nearest<Self> {
+        links.nearest_enclosed()
     }
 }
 

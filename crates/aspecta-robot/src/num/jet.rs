@@ -1,6 +1,6 @@
 //! Forward-mode derivatives.
 
-use super::{Interval, Scalar, each};
+use super::{Interval, Nearest, Scalar, TwoLinks, each};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A value and its gradient with respect to `N` variables.
@@ -58,6 +58,35 @@ impl<T: Scalar, const N: usize> Scalar for Jet<T, N> {
     fn clamped_square(self) -> Self {
         let c = self.value.clamped();
         self.chain(self.value.clamped_square(), c + c)
+    }
+    fn greatest(self, other: Self) -> Self {
+        let first = self.value - other.value;
+        Self {
+            value: self.value.greatest(other.value),
+            gradient: each!(|k| first.choose(self.gradient[k], other.gradient[k])),
+        }
+    }
+    fn choose(self, yes: Self, no: Self) -> Self {
+        Self {
+            value: self.value.choose(yes.value, no.value),
+            gradient: each!(|k| self.value.choose(yes.gradient[k], no.gradient[k])),
+        }
+    }
+    /// They jump, and have no derivatives.
+    fn nearest<const D: usize>(links: &TwoLinks<Self, D>) -> Nearest<Self> {
+        T::nearest(&links.map(|x| x.value)).map(Self::fixed)
+    }
+    /// The derivative of a least value is that with the nearest points held (Danskin).
+    fn least_square<const D: usize>(links: &TwoLinks<Self, D>) -> Self {
+        let values = links.map(|x| x.value);
+        let nearest = T::nearest(&values);
+        let between = values.between(&nearest);
+        let along = |k: usize| {
+            let moved = links.map(|x| x.gradient[k]).between(&nearest);
+            let half = (1..D).fold(between[0] * moved[0], |sum, i| sum + between[i] * moved[i]);
+            half + half
+        };
+        Self { value: T::least_square(&values), gradient: each!(|k| along(k)) }
     }
     fn tightened(self) -> Self {
         Self { value: self.value.tightened(), gradient: each!(|k| self.gradient[k].tightened()) }

@@ -16,6 +16,7 @@ mod disc;
 mod exact;
 mod interval;
 mod jet;
+mod nearest;
 mod pack;
 mod random;
 mod slope;
@@ -26,6 +27,7 @@ pub use ball::Ball;
 pub use disc::Disc;
 pub use interval::Interval;
 pub use jet::Jet;
+pub use nearest::{Nearest, TwoLinks};
 pub use pack::{LANES, Mask, Pack};
 pub use random::Random;
 pub use slope::{Enclosure, Slope};
@@ -61,6 +63,26 @@ pub trait Scalar:
     /// 2∫c, c(t) = [`Scalar::clamped`] and the integral from 0 to t: t² within [0, 1], 0 below and 2t − 1 above. It is smooth, with the
     /// derivative 2c.
     fn clamped_square(self) -> Self;
+
+    /// The greater of two numbers.
+    fn greatest(self, other: Self) -> Self;
+
+    /// The smaller of two numbers.
+    fn least(self, other: Self) -> Self {
+        -(-self).greatest(-other)
+    }
+
+    /// `yes` where `self` is positive and `no` where it is negative; where it is zero, either.
+    fn choose(self, yes: Self, no: Self) -> Self;
+
+    /// The [`Nearest`] points of two links; of enclosures all that there are.
+    fn nearest<const D: usize>(links: &TwoLinks<Self, D>) -> Nearest<Self>;
+
+    /// The square of the least distance of two links.
+    fn least_square<const D: usize>(links: &TwoLinks<Self, D>) -> Self {
+        let between = links.between(&Self::nearest(links));
+        (1..D).fold(between[0].square(), |sum, k| sum + between[k].square())
+    }
 
     /// Returns the number enclosed as tightly as its own slopes allow; other scalars are returned unchanged.
     #[inline(always)]
@@ -108,6 +130,15 @@ impl Scalar for f64 {
     fn clamped_square(self) -> Self {
         let c = self.clamped();
         c * (2.0 * self - c)
+    }
+    fn greatest(self, other: Self) -> Self {
+        self.max(other)
+    }
+    fn choose(self, yes: Self, no: Self) -> Self {
+        if self > 0.0 { yes } else { no }
+    }
+    fn nearest<const D: usize>(links: &TwoLinks<Self, D>) -> Nearest<Self> {
+        links.nearest_numbers()
     }
 }
 

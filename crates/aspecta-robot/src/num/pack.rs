@@ -1,7 +1,7 @@
 //! Eight intervals at once.
 
 use super::interval::{ETA, PHI};
-use super::{Interval, Scalar, trig};
+use super::{Interval, Nearest, Scalar, TwoLinks, trig};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Intervals in a [`Pack`]: the children of an octree cell.
@@ -153,6 +153,20 @@ impl Scalar for Pack {
 
     fn clamped_square(self) -> Self {
         Self::from_fn(|k| self.lane(k).clamped_square())
+    }
+
+    fn greatest(self, other: Self) -> Self {
+        Self::lanes(|k| (most(self.lo[k], other.lo[k]), most(self.hi[k], other.hi[k])))
+    }
+
+    fn choose(self, yes: Self, no: Self) -> Self {
+        Self::from_fn(|k| self.lane(k).choose(yes.lane(k), no.lane(k)))
+    }
+
+    fn nearest<const D: usize>(links: &TwoLinks<Self, D>) -> Nearest<Self> {
+        let of_lane = |k: usize| Interval::nearest(&links.map(|x| x.lane(k)));
+        let all: [Nearest<Interval>; LANES] = std::array::from_fn(of_lane);
+        Nearest { first: Self::from_fn(|k| all[k].first), second: Self::from_fn(|k| all[k].second) }
     }
 
     fn sin_cos(self) -> (Self, Self) {

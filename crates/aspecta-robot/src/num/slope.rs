@@ -1,6 +1,6 @@
 //! Slopes: enclosures of difference quotients about a centre.
 
-use super::{Ball, Interval, Pack, Scalar, each};
+use super::{Ball, Interval, Nearest, Pack, Scalar, TwoLinks, each};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// An enclosing scalar on which slopes can be built.
@@ -191,6 +191,45 @@ impl<T: Enclosure, const N: usize> Scalar for Slope<T, N> {
         let f = self.tightened();
         let c = f.range.clamped();
         f.chain(f.range.clamped_square(), f.centre.clamped_square(), c + c)
+    }
+
+    /// Where either may be the greater, the difference quotient lies between those of both: if f(c) ≥ g(c) and g(x) ≥ f(x), then
+    /// f(x) − f(c) ≤ g(x) − f(c) ≤ g(x) − g(c).
+    fn greatest(self, other: Self) -> Self {
+        let (f, g) = (self.tightened(), other.tightened());
+        let first = f.range - g.range;
+        Self {
+            range: f.range.greatest(g.range),
+            centre: f.centre.greatest(g.centre),
+            slope: each!(|k| first.choose(f.slope[k], g.slope[k])),
+        }
+    }
+
+    /// It jumps, and has no slopes: what it starts from is as wide as its range.
+    fn choose(self, yes: Self, no: Self) -> Self {
+        let range = self.tightened().range.choose(yes.tightened().range, no.tightened().range);
+        Self { range, centre: range, slope: [T::zero(); N] }
+    }
+
+    /// They jump too.
+    fn nearest<const D: usize>(links: &TwoLinks<Self, D>) -> Nearest<Self> {
+        let still = |range: T| Self { range, centre: range, slope: [T::zero(); N] };
+        T::nearest(&links.map(|x| x.tightened().range)).map(still)
+    }
+
+    /// With φ(x; u, v) = ‖gap + u first − v second‖² and (u, v), (u′, v′) the nearest points at x and at the centre c,
+    /// φ(x; u, v) − φ(c; u, v) ≤ F(x) − F(c) ≤ φ(x; u′, v′) − φ(c; u′, v′): a difference quotient of φ with some nearest points held.
+    fn least_square<const D: usize>(links: &TwoLinks<Self, D>) -> Self {
+        let (over, at_centre) = (links.map(|x| x.tightened().range), links.map(|x| x.centre));
+        let nearest = T::nearest(&over);
+        let (here, there) = (over.between(&nearest), at_centre.between(&nearest));
+        let along = |k: usize| {
+            let moved = links.map(|x| x.slope[k]).between(&nearest);
+            let term = |i: usize| moved[i] * (here[i] + there[i]);
+            (1..D).fold(term(0), |sum, i| sum + term(i))
+        };
+        let range = (1..D).fold(here[0].square(), |sum, i| sum + here[i].square());
+        Self { range, centre: T::least_square(&at_centre), slope: each!(|k| along(k)) }
     }
 
     #[inline(always)]

@@ -127,10 +127,11 @@ impl Certificate {
         wanted("scale.reach", scale.reach.len(), n)?;
         wanted("scale.limits", scale.limits.len(), n)?;
         wanted("scale.rod_angles", scale.rod_angles.len(), self.robot.rod_angles.len())?;
+        wanted("scale.pairs", scale.pairs.len(), self.robot.pairs.len())?;
         for (leg, scales) in self.robot.legs.iter().zip(&scale.limits) {
             wanted("scale.limits of a leg", scales.len(), leg.limits.len())?;
         }
-        let limits = scale.limits.iter().flatten().chain(&scale.rod_angles);
+        let limits = scale.limits.iter().flatten().chain(&scale.rod_angles).chain(&scale.pairs);
         let mut all = limits.chain(&scale.reach).chain([&scale.det]);
         holds(
             all.all(|x| x.is_normal() && *x > 0.0),

@@ -25,6 +25,15 @@ impl Certificate {
                 }
                 // Two differences of cosines.
                 Constraint::RodAngle(..) => 4.0,
+                // The square of a distance, or the product of two.
+                Constraint::Apart(_, k) => {
+                    let legs = self.robot.legs.iter();
+                    let far = legs
+                        .map(|leg| span(leg, &self.window) + gradient(leg, &self.window) + norm(&leg.anchor));
+                    let ends = self.robot.bodies.iter().flat_map(|capsule| capsule.ends).flatten();
+                    let far = far.sum::<f64>() + ends.map(|end| norm(&end)).sum::<f64>();
+                    (far + self.robot.pairs[k].distance.hi).max(1.0).powi(2)
+                }
             };
             // A function whose magnitudes are none has the scale 1.
             let (value, most) = (self.scale[constraint], (ROOM * greatest).max(1.0));
@@ -43,6 +52,7 @@ fn key(constraint: Constraint) -> String {
         Constraint::Reach(j) => format!("scale.reach[{}]", j.index()),
         Constraint::Limit(j, k) => format!("scale.limits[{}][{k}]", j.index()),
         Constraint::RodAngle(_, k) => format!("scale.rod_angles[{k}]"),
+        Constraint::Apart(_, k) => format!("scale.pairs[{k}]"),
     }
 }
 

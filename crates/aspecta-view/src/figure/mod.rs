@@ -5,6 +5,7 @@
 
 pub mod axes;
 pub mod barrier;
+mod bodies;
 pub mod components;
 pub mod curves;
 pub mod cut;

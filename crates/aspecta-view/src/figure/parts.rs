@@ -2,7 +2,7 @@
 
 use super::svg::{Anchor, Svg};
 use aspecta::legs::{Kind, Part, Role};
-use aspecta::robot::{Platform, Robot};
+use aspecta::robot::{Body, Capsule, Platform, Robot};
 
 pub(super) const BASE: &str = "#777";
 pub(super) const CRANK: &str = "#0072b2";
@@ -41,10 +41,15 @@ fn entries(robot: &Robot) -> Vec<Entry> {
     let platform = [
         (robot.platform != Platform::PlanePoint, PLATFORM, "platform"),
         (robot.platform == Platform::TurningBody, SPHERE, "unit sphere"),
-        (!robot.obstacles().is_empty(), SOLID, "obstacle"),
+        (has_obstacle(robot), SOLID, "obstacle"),
     ];
     let platform = platform.into_iter().filter(|(there, ..)| *there).map(|(_, colour, text)| (colour, text));
     once.map(|(_, part)| (colour(part.role), part.name)).chain(platform).collect()
+}
+
+fn has_obstacle(robot: &Robot) -> bool {
+    let is_one = |capsule: &Capsule| matches!(capsule.body, Body::Obstacle(_));
+    !robot.obstacles().is_empty() || robot.bodies.iter().any(is_one)
 }
 
 fn colour(role: Role) -> &'static str {

@@ -1,14 +1,15 @@
 //! Drawings of the robot: one pose, and every working mode's posture (figure 8).
 
 use super::axes::{Axis, Chart};
+use super::bodies::solid_points;
 use super::label::Labels;
 use super::palette::INK;
-use super::parts::{BASE, CRANK, PLATFORM, ROD, SOLID, SPHERE, legend};
+use super::parts::{BASE, CRANK, PLATFORM, ROD, SPHERE, legend};
 use super::shape::Shapes;
 use super::skeleton::{LegShape, Point, Skeleton, minus, plus, times};
 use super::svg::{Anchor, Svg};
 use aspecta::aspect::{ModeReport, Reachable, Sample};
-use aspecta::robot::{Platform, Robot, Solid};
+use aspecta::robot::{Platform, Robot};
 use aspecta::text::subscript;
 
 /// The robot at `sample`, with the names of its points, both frames and a legend.
@@ -68,10 +69,10 @@ pub fn signs(mode: &str) -> String {
 
 /// How space is projected on the paper.
 pub(super) struct View {
-    chart: Chart,
+    pub chart: Chart,
     /// Rows: the paper's right and up, in base coordinates.
     project: [Point; 2],
-    flat: bool,
+    pub flat: bool,
     sphere: bool,
 }
 
@@ -92,7 +93,7 @@ impl View {
         } else {
             vec![]
         };
-        let round = robot.obstacles().into_values().flat_map(|solid| ends(&solid));
+        let round = solid_points(robot);
         let points: Vec<Point> =
             skeletons.iter().flat_map(|s| s.points()).chain(unit).chain(round).chain([[0.0; 3]]).collect();
         let range = |k: usize| {
@@ -119,29 +120,6 @@ impl View {
     /// Returns the place of a point in the picture.
     pub fn at(&self, p: Point) -> [f64; 2] {
         self.chart.at([dot(self.project[0], p), dot(self.project[1], p)])
-    }
-
-    /// An obstacle; of a wall in space nothing is drawn.
-    fn solid(&self, shapes: &mut Shapes, solid: &Solid) {
-        let style = format!("fill:{SOLID};stroke:{BASE};stroke-width:1");
-        match solid {
-            Solid::Ball { centre, radius } => {
-                let pixels = radius.mid() * self.chart.width / self.chart.x.span();
-                shapes.circle(self.at(centre.map(|x| x.mid())), pixels, &style);
-            }
-            Solid::Wall { normal, offset } if self.flat => {
-                let [nx, ny, _] = normal.map(|x| x.mid());
-                let depth = |p: &[f64; 2]| offset.mid() - nx * p[0] - ny * p[1];
-                let (x, y) = (self.chart.x.range, self.chart.y.range);
-                let corners = [[x.0, y.0], [x.1, y.0], [x.1, y.1], [x.0, y.1]];
-                let behind = cut(&corners, depth);
-                let pixels: Vec<[f64; 2]> = behind.iter().map(|p| self.chart.at(*p)).collect();
-                if !pixels.is_empty() {
-                    shapes.polyline(&pixels, true, &style);
-                }
-            }
-            Solid::Wall { .. } => {}
-        }
     }
 
     /// Axes in the plane, a scale bar in space but on the unit sphere, which has no unit.
@@ -177,27 +155,6 @@ impl View {
     }
 }
 
-/// The part of a polygon where a linear function is not negative.
-fn cut(polygon: &[[f64; 2]], f: impl Fn(&[f64; 2]) -> f64) -> Vec<[f64; 2]> {
-    let next = polygon.iter().cycle().skip(1);
-    let side = |(a, b): (&[f64; 2], &[f64; 2])| {
-        let (at_a, at_b) = (f(a), f(b));
-        let t = at_a / (at_a - at_b);
-        let between = (at_a * at_b < 0.0).then(|| [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])]);
-        (at_a >= 0.0).then_some(*a).into_iter().chain(between)
-    };
-    polygon.iter().zip(next).flat_map(side).collect()
-}
-
-/// The ends of a round obstacle along the axes.
-fn ends(solid: &Solid) -> Vec<Point> {
-    let Solid::Ball { centre, radius } = solid else { return Vec::new() };
-    let end = |k: usize, side: f64| {
-        std::array::from_fn(|i| centre[i].mid() + if i == k { side * radius.mid() } else { 0.0 })
-    };
-    (0..3).flat_map(|k| [end(k, 1.0), end(k, -1.0)]).collect()
-}
-
 /// How a configuration is drawn.
 pub(super) struct Drawing<'a> {
     /// The robot,
@@ -221,7 +178,7 @@ impl Drawing<'_> {
             let r = self.view.chart.width / self.view.chart.x.span();
             svg.circle(c, r, &format!("fill:#f4f4f4;stroke:{SPHERE};stroke-width:1"));
         }
-        self.robot.obstacles().values().for_each(|solid| self.view.solid(svg, solid));
+        self.solids(svg);
         for leg in &self.skeleton.legs {
             self.base(svg, leg);
         }
@@ -229,6 +186,7 @@ impl Drawing<'_> {
         // In space the farther legs first; the view looks along the horizontal component of `project[1]`.
         legs.sort_by(|&i, &j| self.depth(j).total_cmp(&self.depth(i)));
         self.platform(svg);
+        self.thick(svg);
         for k in legs {
             self.leg(svg, k);
         }

@@ -32,13 +32,15 @@ mod form;
 mod frame;
 mod leg;
 mod limit;
+mod pair;
+mod turns;
 mod view;
 mod way;
 
 use super::saddle::no_local_maximum;
 use crate::paving::{ClassSet, Paving};
 use arrayvec::ArrayVec;
-use aspecta_kinematics::constraints::Scale;
+use aspecta_kinematics::constraints::{Scale, Turn};
 use aspecta_robot::Robot;
 use aspecta_robot::WorkingMode;
 use aspecta_robot::num::{Interval, LANES, Mask, Pack};
@@ -205,7 +207,15 @@ impl<'a, const D: usize, const N: usize, const M: usize> Eight<'a, D, N, M> {
                 let Some(common) = way.constraints(frame, mode, l) else { continue };
                 let det = det.as_ref().map(|det| det.growth(frame, mode, view.scale, l));
                 for (sign, bit) in [(1.0, 1 << (2 * m)), (-1.0, 2 << (2 * m))] {
-                    if asked[l] & bit != 0 && can_climb(&common, det.map(|det| det.signed(sign)).as_ref()) {
+                    if asked[l] & bit == 0 {
+                        continue;
+                    }
+                    let known: Vec<Turn> = match common.parted.is_empty() {
+                        true => Vec::new(),
+                        false => Turn::known(view.robot, mode, if det.is_some() { sign as i8 } else { 0 })
+                            .collect(),
+                    };
+                    if can_climb(&common, det.map(|det| det.signed(sign)).as_ref(), &known) {
                         proved[l] |= bit;
                     }
                 }
@@ -229,7 +239,8 @@ impl<'a, const D: usize, const N: usize, const M: usize> Eight<'a, D, N, M> {
         }
         let Some(frame) = Frame::new(view, &way.legs, lane) else { return 0 };
         let Some(all) = way.constraints(&frame, mode, lane) else { return 0 };
-        let least = all.iter().fold(f64::INFINITY, |least, g| least.min(g.value.lo));
+        let parted = all.parted.iter().flatten().flatten().map(|side| &side.growth);
+        let least = all.all.iter().chain(parted).fold(f64::INFINITY, |least, g| least.min(g.value.lo));
         let det = Determinant::new(view, &way.legs, mode).growth(&frame, mode, view.scale, lane).value;
         if least <= 0.0 || det.magnitude() >= least {
             return 0;

@@ -358,7 +358,10 @@ pub fn norm<const N: usize>(v: &[f64; N]) -> f64 {
 fn flat_legs(faces: &[Option<Face>; 3]) -> u8 {
     let leg = |face: &Face| match face {
         Face::Of(Constraint::Reach(j)) => 1 << j.index(),
-        Face::Of(Constraint::Limit(..) | Constraint::RodAngle(..) | Constraint::Det) | Face::Cut { .. } => 0,
+        Face::Of(
+            Constraint::Limit(..) | Constraint::RodAngle(..) | Constraint::Apart(..) | Constraint::Det,
+        )
+        | Face::Cut { .. } => 0,
     };
     faces.iter().flatten().map(leg).fold(0, |set: u8, leg: u8| set | leg)
 }

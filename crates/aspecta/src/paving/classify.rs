@@ -178,10 +178,22 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
                     known.note(self.modes, wanted, LegSet::of(j), in_posture);
                 }
                 Kind::Limit => {
-                    let margin = |mode| {
-                        let at =
-                            Configuration { robot: self.robot, placement, legs, heights: &heights, mode };
-                        at.margin(constraint)
+                    let at =
+                        |mode| Configuration { robot: self.robot, placement, legs, heights: &heights, mode };
+                    let margin = |mode| match constraint {
+                        // Most bodies are far apart.
+                        Constraint::Apart(_, k) => {
+                            let far = at(mode).margin_of_surroundings(k).tightened();
+                            if far.range.positive() == [true; LANES] {
+                                far
+                            } else {
+                                at(mode).margin(constraint)
+                            }
+                        }
+                        Constraint::Limit(..)
+                        | Constraint::RodAngle(..)
+                        | Constraint::Reach(_)
+                        | Constraint::Det => at(mode).margin(constraint),
                     };
                     known.note(self.modes, wanted, constraint.postures(), margin);
                 }

@@ -49,7 +49,8 @@ pub fn model(robot: &Robot, start: &Solution) -> String {
 pub fn left_out(robot: &Robot) -> Vec<String> {
     let of =
         |limit: &RodAngle| format!("angle between the rods of legs {} and {}", limit.legs[0], limit.legs[1]);
-    leg::left_out(&robot.legs).into_iter().chain(robot.rod_angles.iter().map(of)).collect()
+    let contacts = robot.pairs.iter().map(|pair| format!("contact of {pair}"));
+    leg::left_out(&robot.legs).into_iter().chain(robot.rod_angles.iter().map(of)).chain(contacts).collect()
 }
 
 /// Constraints are as stiff as time steps of 1 ms allow.

@@ -1,7 +1,11 @@
 //! Whether a box has a direction in which all grows that may be the least there.
 
 use super::MOST;
+use super::pair::{LINES, Side};
+use super::turns::{Place, are_impossible};
+use super::way::Bounds;
 use arrayvec::ArrayVec;
+use aspecta_kinematics::constraints::{Joint, Turn};
 use aspecta_robot::num::Interval;
 
 /// A constraint over a box: its scaled values and its derivatives along the vectors of the frame.
@@ -17,9 +21,41 @@ impl<const M: usize> Growth<M> {
     }
 }
 
+/// Whether there is no summit in the box: for every choice of lines that part thin bodies, all grows along one direction that can be the
+/// least.
+///
+/// P is the greatest over these choices of the least of the functions chosen. Where a choice attains P, P grows at least as that does. A choice
+/// of turns that cannot be at once, those `known` of the class among them, is nowhere above zero.
+pub(super) fn can_climb<const M: usize>(bounds: &Bounds<M>, det: Option<&Growth<M>>, known: &[Turn]) -> bool {
+    match bounds.parted.is_empty() {
+        true => can_climb_all(&bounds.all, det),
+        false => choose((&bounds.all, known), &bounds.parted, det, &bounds.places),
+    }
+}
+
+/// [`can_climb`] for every choice of the lines still to be chosen.
+fn choose<const M: usize>(
+    (chosen, turns): (&ArrayVec<Growth<M>, MOST>, &[Turn]),
+    parted: &[ArrayVec<[Side<M>; 2], LINES>],
+    det: Option<&Growth<M>>,
+    places: &[(Joint, Place)],
+) -> bool {
+    let Some((first, others)) = parted.split_first() else { return can_climb_all(chosen, det) };
+    first.iter().all(|line| {
+        let turns: Vec<Turn> =
+            turns.iter().copied().chain(line.iter().filter_map(|side| side.turn)).collect();
+        if are_impossible(&turns, places) {
+            return true;
+        }
+        let mut chosen = chosen.clone();
+        let fits = line.iter().all(|side| chosen.try_push(side.growth).is_ok());
+        fits && choose((&chosen, &turns), others, det, places)
+    })
+}
+
 /// Whether some fixed combination of the frame makes every constraint grow that can be the least one in the
 /// box.
-pub(super) fn can_climb<const M: usize>(common: &[Growth<M>], det: Option<&Growth<M>>) -> bool {
+fn can_climb_all<const M: usize>(common: &[Growth<M>], det: Option<&Growth<M>>) -> bool {
     let all = || common.iter().chain(det);
     let least = all().fold(f64::INFINITY, |least, g| least.min(g.value.hi));
     if least <= 0.0 {

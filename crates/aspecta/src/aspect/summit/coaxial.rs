@@ -26,7 +26,8 @@ pub(super) fn summitless_in_the_middle(robot: &Robot, paving: &Paving, node: u32
     let d = |k: usize| extent[k] + leg.attachment[k] - leg.anchor[k];
     let cosine = (d(0).square() + d(1).square()) / (links.crank.square() * Interval::point(2.0))
         - Interval::point(1.0);
-    let grows = cosine.is_negative() && robot.legs.iter().all(|leg| leg.limits.is_empty());
+    let free = robot.legs.iter().all(|leg| leg.limits.is_empty()) && robot.pairs.is_empty();
+    let grows = cosine.is_negative() && free;
     let limits = &robot.rod_angles;
     let is_beyond = |max: Interval| (max - cosine).is_positive();
     let in_one_posture = grows || limits.iter().any(|limit| limit.min_cos.is_some());

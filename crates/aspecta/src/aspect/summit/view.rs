@@ -8,6 +8,7 @@ use aspecta_kinematics::modal::LegClosure;
 use aspecta_kinematics::placement::{Placement, out_of_frame, wrench};
 use aspecta_robot::num::{Interval, LANES, Mask, Pack, Scalar, Slope, each};
 use aspecta_robot::{LegIndex, Robot};
+use std::cell::OnceCell;
 
 /// The robot over eight boxes.
 pub(super) struct View<'a, const D: usize, const N: usize, const M: usize> {
@@ -34,7 +35,13 @@ pub(super) struct View<'a, const D: usize, const N: usize, const M: usize> {
     pub parted: [bool; N],
     /// Lanes in which every row of A is bounded.
     pub usable: Mask,
+    /// The placement and the legs without derivatives, once they are asked for.
+    plain: OnceCell<Plain<D, N, M>>,
 }
+
+/// Centred forms over eight boxes.
+type Plain<const D: usize, const N: usize, const M: usize> =
+    (Placement<Slope<Pack, M>, D>, [LegClosure<Slope<Pack, M>, D>; N]);
 
 impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
     pub(super) fn new(robot: &'a Robot, paving: &'a Paving, scale: &'a Scale, boxes: &[u32; LANES]) -> Self {
@@ -69,6 +76,7 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
             fixed: [[Form::zero(); N]; N],
             swing: [[Form::zero(); N]; N],
             usable: [true; LANES],
+            plain: OnceCell::new(),
         };
         for [first, second] in paving.twins.iter().map(|twins| twins.map(LegIndex::index)) {
             view.twin_of[second] = Some(first);
@@ -82,6 +90,14 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
             view.smooth[second] = view.smooth[first];
         }
         view
+    }
+
+    /// The placement and the legs without derivatives.
+    pub(super) fn plain(&self) -> &Plain<D, N, M> {
+        self.plain.get_or_init(|| {
+            let value = |f: Form<M>| f.value;
+            (self.placement.map(value), self.legs.each_ref().map(|leg| leg.map(value)))
+        })
     }
 
     /// Row j of A itself, not times the weight: what varies least is enclosed best. What stands in place of the row of a leg that is one with

@@ -6,9 +6,11 @@ use super::form::{Field, Form};
 use super::frame::Frame;
 use super::leg::LegPart;
 use super::limit::LimitPart;
+use super::pair::{Found, LINES, PairPart, Side};
+use super::turns::Place;
 use super::view::View;
 use arrayvec::ArrayVec;
-use aspecta_kinematics::constraints::{Constraint, Kind};
+use aspecta_kinematics::constraints::{Constraint, Joint, Kind};
 use aspecta_robot::num::{Interval, Mask, Pack, Scalar};
 use aspecta_robot::{LegIndex, WorkingMode};
 use std::cell::LazyCell;
@@ -27,7 +29,22 @@ enum Bound<const N: usize, const M: usize> {
     Reach(usize),
     /// A limit, in the modes of one choice of postures.
     Limit(Box<LimitPart<N, M>>),
+    /// Two bodies, likewise.
+    Pair(Box<PairPart<N, M>>),
 }
+
+/// What bounds the aspects in one box, but for det A.
+pub(super) struct Bounds<const M: usize> {
+    /// All of these.
+    pub all: ArrayVec<Growth<M>, MOST>,
+    /// Of each of these pairs of thin bodies one of the lines.
+    pub parted: ArrayVec<ArrayVec<[Side<M>; 2], LINES>, MOST_PARTED>,
+    /// Where the joints of these are.
+    pub places: Vec<(Joint, Place)>,
+}
+
+/// Most pairs of thin bodies that may nearly touch in one box.
+const MOST_PARTED: usize = 4;
 
 impl<'a, const D: usize, const N: usize, const M: usize> Way<'a, D, N, M> {
     /// With the whole range of h, and these legs as singular in each box.
@@ -47,10 +64,12 @@ impl<'a, const D: usize, const N: usize, const M: usize> Way<'a, D, N, M> {
         let (view, legs) = (self.view, &self.legs);
         let heights = LazyCell::new(|| postures(view, legs));
         for bound in &mut self.bounds {
-            if let Bound::Limit(part) = bound
-                && depends(part)
-            {
-                **part = part.with(view, &heights);
+            match bound {
+                Bound::Limit(part) if depends(part) => **part = part.with(view, &heights),
+                Bound::Pair(part) if (0..N).any(|j| changed[j] && part.depends_on(j)) => {
+                    **part = part.with(view, &heights);
+                }
+                Bound::Limit(_) | Bound::Pair(_) | Bound::Reach(_) => {}
             }
         }
     }
@@ -62,9 +81,10 @@ impl<'a, const D: usize, const N: usize, const M: usize> Way<'a, D, N, M> {
         frame: &Frame<N, M>,
         mode: WorkingMode,
         lane: usize,
-    ) -> Option<ArrayVec<Growth<M>, MOST>> {
+    ) -> Option<Bounds<M>> {
         let Self { view, legs, .. } = self;
-        let (mut all, mut fit) = (ArrayVec::new(), true);
+        let (mut all, mut fit) = (ArrayVec::<Growth<M>, MOST>::new(), true);
+        let (mut parted, mut places) = (ArrayVec::new(), Vec::new());
         let mut add = |value: Interval, along| fit &= all.try_push(Growth { value, along }).is_ok();
         let sign = |j: usize| f64::from(mode.sign(j));
         for bound in &self.bounds {
@@ -83,7 +103,7 @@ impl<'a, const D: usize, const N: usize, const M: usize> Way<'a, D, N, M> {
                     let by_root = part.constraint.counts_by_root(view.robot);
                     add(if by_root { value.sqrt() } else { value }, along);
                 }
-                Bound::Limit(_) => {}
+                Bound::Limit(_) | Bound::Pair(_) => {}
             }
         }
         let (lo, hi) = view.paving.bounds(view.boxes[lane]);
@@ -101,7 +121,23 @@ impl<'a, const D: usize, const N: usize, const M: usize> Way<'a, D, N, M> {
                 }
             }
         }
-        fit.then_some(all)
+        let heights = || postures(view, legs);
+        for bound in &self.bounds {
+            let Bound::Pair(part) = bound else { continue };
+            let least = all.iter().fold(f64::INFINITY, |least, growth| least.min(growth.value.hi));
+            if !part.is_in(mode) {
+                continue;
+            }
+            match part.found(view, heights, (frame, mode, lane), least) {
+                Found::Far => {}
+                Found::Least(distances) => fit &= distances.into_iter().all(|one| all.try_push(one).is_ok()),
+                Found::Parted(lines, ends) => {
+                    places.extend(ends);
+                    fit &= parted.try_push(lines).is_ok();
+                }
+            }
+        }
+        fit.then_some(Bounds { all, parted, places })
     }
 
     /// The derivatives of H_j, or of an increasing function of it.
@@ -128,7 +164,17 @@ fn bounds<const D: usize, const N: usize, const M: usize>(
         match constraint.kind() {
             Kind::Serial(j) => std::iter::once(Bound::Reach(j.index())).collect(),
             Kind::Limit => {
-                let part = |mode| Bound::Limit(Box::new(LimitPart::new(view, &heights, constraint, mode)));
+                let part = |mode| match constraint {
+                    Constraint::Apart(_, k) => {
+                        Bound::Pair(Box::new(PairPart::new(view, &heights, (constraint, k), mode)))
+                    }
+                    Constraint::Limit(..)
+                    | Constraint::RodAngle(..)
+                    | Constraint::Reach(_)
+                    | Constraint::Det => {
+                        Bound::Limit(Box::new(LimitPart::new(view, &heights, constraint, mode)))
+                    }
+                };
                 constraint.postures().choices(N).map(part).collect()
             }
             Kind::Parallel => ArrayVec::new(),

@@ -1,0 +1,218 @@
+//! How far apart two bodies are.
+//!
+//! Bodies are segments with a radius, so that two of them are clear of one another where F − ρ² > 0, F being the square of the least distance
+//! of the segments. In space that is smooth enough as it stands. In the plane it has corners, and P is made of smooth pieces of it
+//! (docs/theory.md, 5): where the segments do not cross, F is the least of the distances of the four ends from the other segment; and that
+//! they do not cross is said by a line that parts them. Of thin bodies this alone is asked.
+
+use super::LegAt;
+use super::clearance::{Links, from_link};
+use crate::placement::{Placement, out_of_frame};
+use aspecta_robot::legs::sum_of_squares;
+use aspecta_robot::num::{Interval, Scalar, TwoLinks, dot, each};
+use aspecta_robot::{Body, BodyPair, LegIndex, Robot};
+use std::ops::Range;
+
+/// A part of what keeps two bodies apart, smooth where it counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Feature {
+    /// The distance of the bodies.
+    Distance,
+    /// That of an end from the other body: ends 0 and 1 are the first body's, 2 and 3 the second's.
+    End(usize),
+    /// On which side of a line the two ends of a body are: the line and the ends, 0 and 1 of the one body or of the other.
+    Side(Line, usize),
+}
+
+/// A line that may part two bodies: one along a body, on this or that side of it, or across it at this or that end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Line {
+    /// Whose it is: 0 or 1.
+    pub along: usize,
+    /// On which side of it the other body is.
+    pub side: Beside,
+}
+
+/// A side of a body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Beside {
+    /// Left of it.
+    Left,
+    /// Right of it.
+    Right,
+    /// Beyond its second end.
+    Beyond,
+    /// Before its first end.
+    Before,
+}
+
+impl Line {
+    /// All of them. Two segments that do not touch are parted by one.
+    pub fn all() -> impl Iterator<Item = Self> {
+        let sides = [Beside::Left, Beside::Right, Beside::Beyond, Beside::Before];
+        (0..2).flat_map(move |along| sides.into_iter().map(move |side| Self { along, side }))
+    }
+}
+
+impl Feature {
+    /// The distances of which the least counts.
+    pub fn distances(robot: &Robot, pair: &BodyPair) -> impl Iterator<Item = Self> {
+        let whole = (robot.platform.space() == 3).then_some(Self::Distance);
+        whole.into_iter().chain(ends(robot, pair).map(Self::End))
+    }
+}
+
+/// In the plane, the ends of two bodies of which the least distance from the other body counts: of a body that is a point, that alone.
+fn ends(robot: &Robot, pair: &BodyPair) -> Range<usize> {
+    match pair.bodies.iter().position(|body| robot.is_point(*body)) {
+        _ if robot.platform.space() == 3 || pair.is_thin() => 0..0,
+        Some(first) => 2 * first..2 * first + 1,
+        None => 0..4,
+    }
+}
+
+/// The axis of a body.
+struct Axis<T, const D: usize> {
+    from: [T; D],
+    along: [T; D],
+    /// Its length squared.
+    square: T,
+    /// Whether that is 0.
+    is_point: bool,
+}
+
+impl<T: Scalar, const D: usize> Axis<T, D> {
+    fn end(&self, which: usize) -> [T; D] {
+        if which == 0 { self.from } else { each!(|k| self.from[k] + self.along[k]) }
+    }
+}
+
+/// A pair of bodies in a configuration.
+pub(super) struct TwoBodies<T, const D: usize> {
+    axes: [Axis<T, D>; 2],
+    distance: Interval,
+    is_thin: bool,
+    /// The ends of which the least distance counts, in the plane.
+    ends: Range<usize>,
+}
+
+impl<T: Scalar, const D: usize> TwoBodies<T, D> {
+    /// `leg` gives a leg and its s h.
+    pub(super) fn of<'a>(
+        robot: &Robot,
+        pair: &BodyPair,
+        placement: &Placement<T, D>,
+        leg: impl Fn(LegIndex) -> (LegAt<'a, T, D>, T),
+    ) -> Self
+    where
+        T: 'a,
+    {
+        let fixed = |body: Body| {
+            let zero = [Interval::point(0.0); 3];
+            let [from, to] = robot.capsule(body).and_then(|capsule| capsule.ends).unwrap_or([zero; 2]);
+            let along: [Interval; 3] = std::array::from_fn(|k| to[k] - from[k]);
+            (from, along, T::constant(dot(&along, &along)), from == to)
+        };
+        let axis = |body: Body| match body {
+            Body::Crank(j) => {
+                let (at, sh) = leg(j);
+                let links = Links::of(&at, sh);
+                let square = links.crank_square(at.leg);
+                Axis { from: anchor(&at), along: out_of_frame(at.leg, &links.crank), square, is_point: false }
+            }
+            Body::Rod(j) => {
+                let (at, sh) = leg(j);
+                let (links, mut from) = (Links::of(&at, sh), anchor(&at));
+                if at.leg.actuator.rigid_rod().is_some() {
+                    let crank = out_of_frame(at.leg, &links.crank);
+                    from = each!(|k| from[k] + crank[k]);
+                }
+                let square = links.rod_square(at.leg);
+                Axis { from, along: out_of_frame(at.leg, &links.rod), square, is_point: false }
+            }
+            Body::Platform(_) => {
+                let (from, along, square, is_point) = fixed(body);
+                let (arm, origin) = (placement.turned(&from), placement.origin());
+                let from = each!(|k| origin[k] + arm[k]);
+                Axis { from, along: placement.turned(&along), square, is_point }
+            }
+            Body::Obstacle(_) => {
+                let (from, along, square, is_point) = fixed(body);
+                let vector = |v: &[Interval; 3]| each!(|k| T::constant(v[k]));
+                Axis { from: vector(&from), along: vector(&along), square, is_point }
+            }
+        };
+        let ends = ends(robot, pair);
+        Self { axes: pair.bodies.map(axis), distance: pair.distance, is_thin: pair.is_thin(), ends }
+    }
+
+    /// Positive just where they are clear of one another.
+    pub(super) fn margin(&self) -> T {
+        if self.is_thin {
+            let parted = |line: Line| self.side(line, 0).least(self.side(line, 1));
+            let first = parted(Line { along: 0, side: Beside::Left });
+            return Line::all().skip(1).fold(first, |greatest, line| greatest.greatest(parted(line)));
+        }
+        // None of the pieces is less, but where links are nearly parallel they are enclosed better.
+        self.ends
+            .clone()
+            .fold(self.feature(Feature::Distance), |least, end| least.least(self.feature(Feature::End(end))))
+    }
+
+    /// Positive only where they are clear of one another, as discs or balls round them show.
+    pub(super) fn margin_of_surroundings(&self) -> T {
+        let [first, second] = &self.axes;
+        let half = Interval::point(0.5);
+        let between: [T; D] =
+            each!(|k| first.from[k] - second.from[k] + (first.along[k] - second.along[k]).scale(half));
+        let reach = (first.square.sqrt() + second.square.sqrt()).scale(half) + T::constant(self.distance);
+        sum_of_squares(&between) - reach.square()
+    }
+
+    /// An end of one of the bodies, numbered as [`Feature::End`] is.
+    pub(super) fn end(&self, end: usize) -> [T; D] {
+        self.axes[end / 2].end(end % 2)
+    }
+
+    /// One of its pieces.
+    pub(super) fn feature(&self, feature: Feature) -> T {
+        let least = T::constant(self.distance.square());
+        match feature {
+            Feature::Distance => T::least_square(&self.links()) - least,
+            Feature::End(end) => {
+                let (point, other) = (self.end(end), &self.axes[1 - end / 2]);
+                let away: [T; D] = each!(|k| point[k] - other.from[k]);
+                let square = match other.is_point {
+                    true => sum_of_squares(&away),
+                    false => from_link(&away, &other.along, other.square),
+                };
+                square - least
+            }
+            Feature::Side(line, end) => self.side(line, end),
+        }
+    }
+
+    /// How far an end of one body is on the side of a line along, or across, the other.
+    fn side(&self, line: Line, end: usize) -> T {
+        let (axis, point) = (&self.axes[line.along], self.axes[1 - line.along].end(end));
+        let away: [T; D] = each!(|k| point[k] - axis.from[k]);
+        let across = || axis.along[0] * away[1] - axis.along[1] * away[0];
+        match line.side {
+            Beside::Left => across(),
+            Beside::Right => -across(),
+            Beside::Beyond => dot(&axis.along, &away) - axis.square,
+            Beside::Before => -dot(&axis.along, &away),
+        }
+    }
+
+    fn links(&self) -> TwoLinks<T, D> {
+        let [first, second] = &self.axes;
+        let gap = each!(|k| first.from[k] - second.from[k]);
+        TwoLinks { gap, first: first.along, second: second.along }
+    }
+}
+
+/// A of a leg.
+fn anchor<T: Scalar, const D: usize>(at: &LegAt<'_, T, D>) -> [T; D] {
+    each!(|k| T::constant(at.leg.anchor[k]))
+}

@@ -1,0 +1,369 @@
+//! Whether two bodies are clear of one another, over a box in a working mode.
+//!
+//! Bodies are segments with a radius. With the points P + u e and P′ + v e′ of two of them, (u, v) in the unit square, what counts is the least
+//! of φ(u, v) = ‖P + u e − P′ − v e′‖², less the square of the distance asked for. The square is cut into parts, and those are dropped in which
+//! φ is greater everywhere than somewhere else; what is left falls into clusters, and φ is looked at over each, u and v being anything there:
+//! a vector along which φ grows for all of them is one along which the least grows (docs/theory.md, 5). φ is convex in (u, v), so that a tangent plane bounds it
+//! from below.
+//!
+//! Thin bodies, with no distance asked for, do not touch where a line parts them: one along either of them, or across it at an end.
+
+use super::body::MOST;
+use super::in_mode::InMode;
+use super::place::{Along, Function, OWN, Posture, ZERO};
+use super::rods::Shared;
+use super::turns::{Joint, Turn, beside, joints};
+use aspecta_robot::num::{Interval, Jet, Scalar};
+use aspecta_robot::{AXES, Body, BodyPair};
+
+/// A function of the axes and of the q of both bodies' legs.
+type Both = Jet<Interval, { AXES + 2 }>;
+
+/// The axis of a body.
+struct Axis<T> {
+    from: [T; 3],
+    along: [T; 3],
+}
+
+/// A part of the unit square.
+#[derive(Clone, Copy)]
+struct Part {
+    u: Interval,
+    v: Interval,
+}
+
+/// A pair of bodies over a box.
+pub(super) enum Apart {
+    /// Something else is less.
+    Far,
+    /// Functions of which the least counts.
+    Least(Vec<Shared>),
+    /// Lines of which one must part the bodies, and the ends of both.
+    Parted(Vec<Line>, Box<[Joint; 4]>),
+}
+
+/// A line that may part two bodies.
+pub(super) struct Line {
+    /// How far the ends of one body are on one side of it: the lesser counts.
+    pub ends: [Shared; 2],
+    /// The turns that the ends take there.
+    pub turns: Vec<Turn>,
+}
+
+/// Cuts of the unit square, each into four.
+const CUTS: usize = 4;
+/// How often a part is narrowed.
+const NARROWINGS: usize = 3;
+/// Steps towards the least φ.
+const STEPS: usize = 60;
+
+impl<T: Scalar> Axis<T> {
+    fn end(&self, which: usize) -> [T; 3] {
+        if which == 0 { self.from } else { std::array::from_fn(|k| self.from[k] + self.along[k]) }
+    }
+
+    fn map<U>(&self, to: impl Fn(T) -> U) -> Axis<U> {
+        Axis { from: self.from.map(&to), along: self.along.map(&to) }
+    }
+}
+
+fn product<T: Scalar>(a: &[T; 3], b: &[T; 3]) -> T {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn square<T: Scalar>(a: &[T; 3]) -> T {
+    a[0].square() + a[1].square() + a[2].square()
+}
+
+/// All t in [0, 1] at which a t² − 2 b t is least there.
+fn stationary(a: Interval, b: Interval) -> Interval {
+    match a.is_positive() {
+        true => (b / a).clamped(),
+        false => Part::WHOLE.u,
+    }
+}
+
+/// The common part, if there is one.
+fn common(a: Interval, b: Interval) -> Option<Interval> {
+    let (lo, hi) = (a.lo.max(b.lo), a.hi.min(b.hi));
+    (lo <= hi).then_some(Interval { lo, hi })
+}
+
+/// From a point of the second body to one of the first.
+fn between<T: Scalar>([first, second]: &[Axis<T>; 2], u: T, v: T) -> [T; 3] {
+    std::array::from_fn(|k| (first.from[k] - second.from[k]) + (u * first.along[k] - v * second.along[k]))
+}
+
+impl Part {
+    const WHOLE: Self = Self { u: Interval { lo: 0.0, hi: 1.0 }, v: Interval { lo: 0.0, hi: 1.0 } };
+
+    /// The edges of the square: segments in the plane that do not cross are nearest at an end of one of them.
+    fn edges() -> [Self; 4] {
+        let (start, end) = (Interval::point(0.0), Interval::point(1.0));
+        let whole = Self::WHOLE;
+        [
+            Self { u: start, ..whole },
+            Self { u: end, ..whole },
+            Self { v: start, ..whole },
+            Self { v: end, ..whole },
+        ]
+    }
+
+    fn halves(self) -> impl Iterator<Item = Self> {
+        let halves = |x: Interval| {
+            let middle = x.mid();
+            let upper = (x.lo < x.hi).then_some(Interval { lo: middle, hi: x.hi });
+            std::iter::once(Interval { lo: x.lo, hi: if upper.is_some() { middle } else { x.hi } })
+                .chain(upper)
+        };
+        halves(self.u).flat_map(move |u| halves(self.v).map(move |v| Self { u, v }))
+    }
+
+    fn touches(&self, other: &Self) -> bool {
+        let touch = |a: Interval, b: Interval| a.lo <= b.hi && b.lo <= a.hi;
+        touch(self.u, other.u) && touch(self.v, other.v)
+    }
+
+    /// What of these parts φ may be least in, in clusters.
+    fn nearest(axes: &[Axis<Interval>; 2], mut parts: Vec<Self>) -> Vec<Self> {
+        let phi = |part: &Self| square(&between(axes, part.u, part.v));
+        let at_middle = |part: &Self| {
+            let point = |x: Interval| Interval::point(x.mid());
+            phi(&Self { u: point(part.u), v: point(part.v) }).hi
+        };
+        for _ in 0..CUTS {
+            parts = parts.into_iter().flat_map(Self::halves).collect();
+            let least = parts.iter().map(at_middle).fold(f64::INFINITY, f64::min);
+            parts.retain(|part| phi(part).lo <= least);
+        }
+        Self::clusters(parts).into_iter().filter_map(|part| part.narrowed(axes)).collect()
+    }
+
+    /// Parts that hang together, as one each.
+    fn clusters(parts: Vec<Self>) -> Vec<Self> {
+        let mut clusters: Vec<Self> = Vec::new();
+        for part in parts {
+            let mut whole = part;
+            // What is joined may touch others.
+            while let Some(k) = clusters.iter().position(|cluster| cluster.touches(&whole)) {
+                let other = clusters.swap_remove(k);
+                whole = Self { u: whole.u.hull(other.u), v: whole.v.hull(other.v) };
+            }
+            clusters.push(whole);
+        }
+        clusters
+    }
+
+    /// What of the part can be nearest, if anything can. φ is least only where its derivative by u vanishes, or at an end of [0, 1] towards which it falls; and so by v.
+    fn narrowed(mut self, axes: &[Axis<Interval>; 2]) -> Option<Self> {
+        for _ in 0..NARROWINGS {
+            let [first, second] = axes;
+            let gap: [Interval; 3] = std::array::from_fn(|k| first.from[k] - second.from[k]);
+            let both = product(&first.along, &second.along);
+            let u = stationary(square(&first.along), self.v * both - product(&first.along, &gap));
+            self.u = common(self.u, u)?;
+            let v = stationary(square(&second.along), self.u * both + product(&second.along, &gap));
+            self.v = common(self.v, v)?;
+        }
+        Some(self)
+    }
+
+    /// The least φ in the part.
+    fn least(&self, axes: &[Axis<Interval>; 2]) -> Interval {
+        let numbers = axes.each_ref().map(|axis| axis.map(Interval::mid));
+        let [first, second] = numbers.each_ref().map(|axis| square(&axis.along));
+        let ratio = |a: f64, b: f64, range: Interval| {
+            let x = a / b;
+            if x.is_finite() { x.clamp(range.lo, range.hi) } else { range.mid() }
+        };
+        // Each of the two in turn is made best; whatever is found, a tangent plane there is below φ.
+        let (mut u, mut v) = (self.u.mid(), self.v.mid());
+        for _ in 0..STEPS {
+            u -= product(&between(&numbers, u, v), &numbers[0].along) / first;
+            u = ratio(u, 1.0, self.u);
+            v += product(&between(&numbers, u, v), &numbers[1].along) / second;
+            v = ratio(v, 1.0, self.v);
+        }
+        let at = between(axes, Interval::point(u), Interval::point(v));
+        let two = Interval::point(2.0);
+        let slopes = [product(&at, &axes[0].along) * two, -product(&at, &axes[1].along) * two];
+        let ways = [self.u - Interval::point(u), self.v - Interval::point(v)];
+        let below = slopes.iter().zip(ways).fold(square(&at), |sum, (slope, way)| sum + *slope * way);
+        Interval { lo: below.lo.max(0.0).min(below.hi), hi: square(&at).hi }
+    }
+}
+
+impl<const D: usize> InMode<'_, '_, D> {
+    /// How far apart two bodies are, where something else is at most `least` (scaled).
+    pub(super) fn apart(&self, pair: &BodyPair, scale: f64, least: f64) -> Apart {
+        let values = self.axes(pair, |leg, f| leg.value(f));
+        if is_far(&values, pair, scale, least) {
+            return Apart::Far;
+        }
+        let over = self.axes(pair, lifted);
+        let middle = self.axes(pair, |_, f| f.at_middle);
+        match pair.is_thin() {
+            false => {
+                let asked = pair.distance.square();
+                let parts = match D {
+                    2 => Part::edges()
+                        .into_iter()
+                        .flat_map(|edge| Part::nearest(&values, vec![edge]))
+                        .collect(),
+                    _ => Part::nearest(&values, vec![Part::WHOLE]),
+                };
+                let least = |part: Part| {
+                    let phi = square(&between(&over, Both::constant(part.u), Both::constant(part.v)));
+                    self.shared(pair, phi - Both::constant(asked), part.least(&middle) - asked)
+                };
+                Apart::Least(parts.into_iter().map(least).collect())
+            }
+            true => {
+                let side = |line: usize, end: usize| {
+                    self.shared(pair, on_side(&over, line, end), on_side(&middle, line, end))
+                };
+                let names = pair.bodies.map(|body| joints(self.place.setting.robot, body));
+                let joint = |k: usize| {
+                    let place = values[k / 2].end(k % 2);
+                    (names[k / 2][k % 2], [place[0], place[1]])
+                };
+                let joints: [Joint; 4] = std::array::from_fn(joint);
+                let line = |k: usize| Line { ends: [side(k, 0), side(k, 1)], turns: turns_at(k, &joints) };
+                Apart::Parted((0..8).map(line).collect(), Box::new(joints))
+            }
+        }
+    }
+
+    /// How far they are apart: positive if they are clear of one another.
+    pub(super) fn clearance_of(&self, pair: &BodyPair) -> Interval {
+        match self.apart(pair, 1.0, 0.0) {
+            Apart::Far => Interval { lo: f64::MIN_POSITIVE, hi: f64::INFINITY },
+            Apart::Least(all) => {
+                let least = all.iter().map(|one| one.range);
+                let least = least.fold(Interval::point(f64::INFINITY), Interval::least);
+                // Nearest at an end, if they do not cross.
+                if D == 2 && least.hi > 0.0 { least.least(self.distance_of(pair)) } else { least }
+            }
+            Apart::Parted(all, _) => {
+                let lesser = all.iter().map(|line| line.ends[0].range.least(line.ends[1].range));
+                lesser.fold(Interval::point(f64::NEG_INFINITY), Interval::greatest)
+            }
+        }
+    }
+
+    /// Their least distance squared, less that asked for, wherever on the bodies that is.
+    fn distance_of(&self, pair: &BodyPair) -> Interval {
+        let values = self.axes(pair, |leg, f| leg.value(f));
+        let (over, middle) = (self.axes(pair, lifted), self.axes(pair, |_, f| f.at_middle));
+        let asked = pair.distance.square();
+        let least = |part: Part| {
+            let phi = square(&between(&over, Both::constant(part.u), Both::constant(part.v)));
+            self.shared(pair, phi - Both::constant(asked), part.least(&middle) - asked).range
+        };
+        let parts = Part::nearest(&values, vec![Part::WHOLE]).into_iter().map(least);
+        parts.fold(Interval::point(f64::INFINITY), Interval::least)
+    }
+
+    /// The axes of two bodies.
+    fn axes<T: Scalar>(&self, pair: &BodyPair, value: impl Fn(&Seen<'_>, &Point) -> T) -> [Axis<T>; 2] {
+        std::array::from_fn(|slot| {
+            let body = pair.bodies[slot];
+            let leg = body.leg().map(|j| &*self.legs[j.index()]);
+            let seen = Seen { leg, slot };
+            let ends = match (body, leg) {
+                (Body::Crank(_), Some(leg)) => [leg.joint(0), leg.joint(1)],
+                (Body::Rod(_), Some(leg)) => [leg.joint(1), leg.joint(2)],
+                (Body::Platform(_) | Body::Obstacle(_) | Body::Crank(_) | Body::Rod(_), _) => {
+                    self.place.ends(body)
+                }
+            };
+            let [from, to] = ends.map(|end| end.map(|f| value(&seen, &f)));
+            Axis { from, along: std::array::from_fn(|k| to[k] - from[k]) }
+        })
+    }
+
+    /// A function of both legs, and what it is where the axes and the q's of the legs are at their middle.
+    fn shared(&self, pair: &BodyPair, f: Both, at_middle: Interval) -> Shared {
+        let legs = pair.bodies.map(|body| body.leg().map(|j| (j.index(), &*self.legs[j.index()])));
+        let (mut by_joint, mut middle) = ([ZERO; MOST], at_middle);
+        let mut total: [Interval; AXES] = std::array::from_fn(|a| f.gradient[a]);
+        for (slot, (j, leg)) in legs.into_iter().enumerate().filter_map(|(slot, leg)| Some((slot, leg?))) {
+            let slope = f.gradient[AXES + slot];
+            by_joint[j] = slope;
+            match leg.loose {
+                true => middle = middle + slope * (leg.q - leg.middle),
+                false => (0..AXES).for_each(|a| total[a] = total[a] + slope * leg.rate[a]),
+            }
+        }
+        let range = self.place.centred(&Along { value: f.value, gradient: total }, middle);
+        Shared { range, along: std::array::from_fn(|a| f.gradient[a]), by_joint }
+    }
+}
+
+/// A coordinate of a point over the box and at its middle.
+#[derive(Clone, Copy)]
+pub(super) struct Point {
+    pub over: Function,
+    pub at_middle: Interval,
+}
+
+/// Whose point is looked at.
+struct Seen<'a> {
+    leg: Option<&'a Posture>,
+    slot: usize,
+}
+
+impl Seen<'_> {
+    fn value(&self, f: &Point) -> Interval {
+        f.over.value
+    }
+}
+
+/// A function of one leg as one of both.
+fn lifted(seen: &Seen<'_>, f: &Point) -> Both {
+    let mut gradient = [ZERO; AXES + 2];
+    gradient[..AXES].copy_from_slice(&f.over.gradient[..AXES]);
+    if seen.leg.is_some() {
+        gradient[AXES + seen.slot] = f.over.gradient[OWN];
+    }
+    Both { value: f.over.value, gradient }
+}
+
+/// Whether the bodies are so far apart that their scaled margin is more than `least`: by the discs or balls round them.
+fn is_far(axes: &[Axis<Interval>; 2], pair: &BodyPair, scale: f64, least: f64) -> bool {
+    let half = Interval::point(0.5);
+    let reach = axes.iter().fold(pair.distance, |sum, axis| sum + square(&axis.along).sqrt() * half);
+    let gap = square(&between(axes, half, half)).sqrt() - reach;
+    if pair.is_thin() {
+        // Some line parts them; of how far nothing is said, so that the others must be below zero.
+        return gap.is_positive() && least <= 0.0;
+    }
+    // A distance of gap more than is asked for.
+    gap.is_positive()
+        && ((gap * (gap + pair.distance + pair.distance)) / Interval::point(scale)).sqrt().lo > least
+}
+
+/// On which side of a line the end of a body is: lines 0 to 3 are those of the first body, and the end is of the second.
+fn on_side<T: Scalar>(axes: &[Axis<T>; 2], line: usize, end: usize) -> T {
+    let (own, point) = (&axes[line / 4], axes[1 - line / 4].end(end));
+    let away: [T; 3] = std::array::from_fn(|k| point[k] - own.from[k]);
+    let across = own.along[0] * away[1] - own.along[1] * away[0];
+    match line % 4 {
+        0 => across,
+        1 => -across,
+        2 => product(&own.along, &away) - square(&own.along),
+        _ => -product(&own.along, &away),
+    }
+}
+
+/// The turns that the ends of the other body take on the side of a line; or that one, of an end of the line's body, that follows.
+fn turns_at(line: usize, joints: &[Joint; 4]) -> Vec<Turn> {
+    let own = [joints[line / 4 * 2], joints[line / 4 * 2 + 1]];
+    let other = [joints[2 - line / 4 * 2], joints[3 - line / 4 * 2]];
+    let minus = |a: Joint, b: Joint| [a.1[0] - b.1[0], a.1[1] - b.1[1]];
+    match line % 4 {
+        side @ 0..2 => other.map(|end| Turn::new([own[0].0, own[1].0, end.0], side == 0)).to_vec(),
+        2 => beside(own[1], minus(own[1], own[0]), other).into_iter().collect(),
+        _ => beside(own[0], minus(own[0], own[1]), other).into_iter().collect(),
+    }
+}
