@@ -178,6 +178,8 @@ class Robot:
     def __init__(self, value):
         if isinstance(value, dict) and "rod_angles" in value:
             raise NotChecked("a robot with limits that two legs share")
+        if isinstance(value, dict) and ("pairs" in value or "bodies" in value):
+            raise NotChecked("a robot with bodies")
         *_, platform, legs, window = keys(value, "name", "title", "source", "length_unit", "platform", "legs", "window")
         if platform not in ("plane-point", "plane-body"):
             raise NotChecked(f"a robot whose platform is a {platform}")

@@ -49,6 +49,18 @@ def test_links_keep_clear_of_obstacles() -> None:
         aspecta.Robot(platform="plane-point", legs=legs, obstacles=[{"centre": [4.5, 0]}])
 
 
+def test_links_keep_clear_of_one_another() -> None:
+    legs = [{"anchor": [0, 0], **LEG}, {"anchor": [9, 0], "actuator": {"kind": "revolute", "crank": 5, "rod": 8}}]
+    robot = aspecta.Robot(platform="plane-point", legs=legs, bodies={"radius": 0})
+    analysis = robot.analyze()
+    assert analysis.exact and analysis.low == 10
+    assert aspecta.Robot.from_toml(robot.to_toml()) == robot
+    within = [s.within_limits for s in robot.ik([4.5, 2.9])]
+    assert len(within) == 4 and not all(within)
+    with pytest.raises(aspecta.Error, match="not negative"):
+        aspecta.Robot(platform="plane-point", legs=legs, bodies={"radius": -1})
+
+
 def test_a_robot_is_built_from_its_legs(tmp_path: Path) -> None:
     legs = [{"anchor": np.array([0.0, 0.0]), **LEG}, {"anchor": (9, 0), **LEG}]
     robot = aspecta.Robot(platform="plane-point", legs=legs, name="mine", length_unit="mm", window={"y": [0, 20]})

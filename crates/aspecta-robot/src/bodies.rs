@@ -53,8 +53,8 @@ pub struct Capsule {
     pub body: Body,
     /// Half its thickness, ≥ 0.
     pub radius: Interval,
-    /// Bodies in different layers of a planar machine cannot meet. 0 in space.
-    pub layer: i32,
+    /// Bodies in different layers of a planar machine cannot meet; without one it is in all, as are those in space.
+    pub layer: Option<i32>,
     /// The ends of its axis, of a body of the platform in the platform's frame, of an obstacle in the base; of links they are joints.
     pub ends: Option<[[Interval; 3]; 2]>,
 }
@@ -131,7 +131,8 @@ impl fmt::Display for BodyPair {
 impl Capsule {
     /// In words: `crank of leg 1, radius 0.5000 cm, layer 2`.
     pub fn in_words(&self, unit: &str) -> String {
-        let layer = if self.layer == 0 { String::new() } else { format!(", layer {}", self.layer) };
+        let layer = self.layer.filter(|layer| *layer != 0);
+        let layer = layer.map_or(String::new(), |layer| format!(", layer {layer}"));
         match self.radius.hi {
             0.0 => format!("{}, thin{layer}", self.body),
             _ => format!("{}, radius {} {unit}{layer}", self.body, brief(self.radius.mid())),
@@ -147,6 +148,16 @@ impl Capsule {
             second: std::array::from_fn(|k| to[k] - from[k]),
         };
         !(Interval::least_square(&links) - distance.square()).is_positive()
+    }
+
+    /// Whether some layer has both.
+    pub(crate) fn is_in_layer_of(&self, other: &Self) -> bool {
+        self.layer.zip(other.layer).is_none_or(|(one, another)| one == another)
+    }
+
+    /// Whether what reaches so far from a point of the base may come to it: anything may be met by a body that moves.
+    fn may_be_met_from(&self, point: &[Interval; 3], reach: Interval) -> bool {
+        !matches!(self.body, Body::Obstacle(_)) || self.is_near(point, reach)
     }
 }
 
@@ -197,14 +208,42 @@ impl Robot {
             capsule.body.is_of(self) && is_numbered && is_placed && radius
         };
         let few = self.bodies.len() <= MOST_BODIES && self.pairs.len() <= MOST_PAIRS;
-        few && self.bodies.iter().all(is_sound) && self.pairs.iter().all(|pair| pair.fits(self))
+        few && self.bodies.iter().all(is_sound)
+            && self.pairs.iter().all(|pair| pair.fits(self))
+            && self.are_pairs_complete()
+    }
+
+    /// Whether all bodies that can meet are kept apart by their radii at least, and none is there twice. Links and discs or balls beside the robot have limits of the legs instead.
+    fn are_pairs_complete(&self) -> bool {
+        let zero = Interval::point(0.0);
+        let among = |capsule: &Capsule| match capsule.body {
+            Body::Obstacle(_) if self.is_point(capsule.body) => 2,
+            Body::Platform(_) => 1,
+            Body::Crank(_) | Body::Rod(_) | Body::Obstacle(_) => 0,
+        };
+        let is_kept = |first: &Capsule, second: &Capsule| {
+            let by_limits = [among(first), among(second)];
+            let needed = self
+                .pair([first, second], zero)
+                .filter(|_| first.is_in_layer_of(second) && by_limits != [0, 2] && by_limits != [2, 0]);
+            needed.is_none_or(|needed| {
+                let is_it = |pair: &&BodyPair| {
+                    pair.bodies == needed.bodies || pair.bodies == [needed.bodies[1], needed.bodies[0]]
+                };
+                self.pairs.iter().find(is_it).is_some_and(|pair| pair.distance.hi >= needed.distance.lo)
+            })
+        };
+        let others = |i: usize| &self.bodies[i + 1..];
+        self.bodies.iter().enumerate().all(|(i, first)| {
+            others(i).iter().all(|second| first.body != second.body && is_kept(first, second))
+        })
     }
 
     /// The pairs of its bodies that can meet and are to be kept `clearance` apart: those of one layer that share no joint.
     pub(crate) fn pairs_to_keep_apart(&self, clearance: Interval) -> Vec<BodyPair> {
         let of = |(i, first): (usize, &Capsule)| {
             let (first, others) = (*first, &self.bodies[i + 1..]);
-            let others = others.iter().filter(move |second| second.layer == first.layer);
+            let others = others.iter().filter(move |second| first.is_in_layer_of(second));
             others.filter_map(move |second| self.pair([&first, second], clearance)).collect::<Vec<_>>()
         };
         self.bodies.iter().enumerate().flat_map(of).collect()
@@ -216,12 +255,12 @@ impl Robot {
         // Zeros are exact, but not what is rounded outward.
         let thin = sizes.iter().all(|size| size.hi == 0.0);
         let distance = if thin { Interval::point(0.0) } else { sizes[0] + sizes[1] + sizes[2] };
-        let can_meet = !self.share_a_joint(both, distance) && !self.are_out_of_reach(both, distance);
+        let can_meet = !self.share_a_joint(both) && !self.are_out_of_reach(both, distance);
         can_meet.then_some(BodyPair { bodies: both.map(|capsule| capsule.body), distance })
     }
 
     /// Whether two bodies are joined, so that they always touch.
-    fn share_a_joint(&self, both: [&Capsule; 2], distance: Interval) -> bool {
+    fn share_a_joint(&self, both: [&Capsule; 2]) -> bool {
         use Body::{Crank, Obstacle, Platform, Rod};
         let stands = |j: LegIndex| self.leg(j).actuator.kind().facts().is_positive;
         let one_anchor = |i: LegIndex, j: LegIndex| self.leg(i).anchor == self.leg(j).anchor;
@@ -233,8 +272,8 @@ impl Robot {
                 let one_end = self.leg(i).attachment == self.leg(j).attachment;
                 one_end || stands(i) && stands(j) && one_anchor(i, j)
             }
-            [Rod(leg), Platform(_)] => self.is_jointed(leg, both[1], distance),
-            [Platform(_), Rod(leg)] => self.is_jointed(leg, both[0], distance),
+            [Rod(leg), Platform(_)] => self.is_jointed(leg, both[1]),
+            [Platform(_), Rod(leg)] => self.is_jointed(leg, both[0]),
             [Crank(_) | Rod(_) | Platform(_), Obstacle(_)]
             | [Obstacle(_), Crank(_) | Rod(_) | Platform(_)]
             | [Crank(_), Platform(_)]
@@ -251,10 +290,10 @@ impl Robot {
             !(dot(&away, &away) - pair.distance.square()).is_positive()
         };
         let anchors = |i: LegIndex, j: LegIndex| near(&self.leg(i).anchor, &self.leg(j).anchor);
-        let stands_at = |leg: LegIndex, obstacle: Body| {
-            let capsule = self.capsule(obstacle);
-            capsule.is_some_and(|capsule| capsule.is_near(&self.leg(leg).anchor, pair.distance))
+        let is_near = |point: &[Interval; 3], body: Body| {
+            self.capsule(body).is_some_and(|capsule| capsule.is_near(point, pair.distance))
         };
+        let stands_at = |leg: LegIndex, obstacle: Body| is_near(&self.leg(leg).anchor, obstacle);
         match pair.bodies {
             [Crank(i), Crank(j)] => anchors(i, j),
             [Crank(i), Rod(j)] | [Rod(j), Crank(i)] => stands(j) && anchors(i, j),
@@ -266,45 +305,46 @@ impl Robot {
             [Rod(i), obstacle @ Obstacle(_)] | [obstacle @ Obstacle(_), Rod(i)] => {
                 stands(i) && stands_at(i, obstacle)
             }
-            [Crank(_) | Rod(_) | Obstacle(_), Platform(_)]
-            | [Platform(_), Crank(_) | Rod(_) | Platform(_) | Obstacle(_)]
+            [Rod(i), plate @ Platform(_)] | [plate @ Platform(_), Rod(i)] => {
+                is_near(&self.leg(i).attachment, plate)
+            }
+            [Crank(_) | Obstacle(_), Platform(_)]
+            | [Platform(_), Crank(_) | Platform(_) | Obstacle(_)]
             | [Obstacle(_), Obstacle(_)] => false,
         }
     }
 
     /// Whether two bodies are too short to come as near as `distance`.
     fn are_out_of_reach(&self, both: [&Capsule; 2], distance: Interval) -> bool {
-        let [first, second] = both.map(|capsule| self.surroundings(capsule));
-        first.zip(second).is_some_and(|((a, reach), (b, other))| {
-            let away: [Interval; 3] = std::array::from_fn(|k| a[k] - b[k]);
-            (dot(&away, &away).sqrt() - reach - other - distance).is_positive()
-        })
+        let reaches = both.map(|capsule| self.reach_of(capsule.body));
+        match reaches {
+            [Some((a, reach)), Some((b, other))] => {
+                let away: [Interval; 3] = std::array::from_fn(|k| a[k] - b[k]);
+                (dot(&away, &away).sqrt() - reach - other - distance).is_positive()
+            }
+            [Some((anchor, reach)), None] => !both[1].may_be_met_from(&anchor, reach + distance),
+            [None, Some((anchor, reach))] => !both[0].may_be_met_from(&anchor, reach + distance),
+            [None, None] => false,
+        }
     }
 
     /// Whether the joint of a leg lies in a body of the platform, so that the rod always touches it.
-    fn is_jointed(&self, leg: LegIndex, capsule: &Capsule, distance: Interval) -> bool {
-        capsule.is_near(&self.leg(leg).attachment, distance)
+    fn is_jointed(&self, leg: LegIndex, capsule: &Capsule) -> bool {
+        capsule.is_near(&self.leg(leg).attachment, capsule.radius)
     }
 
-    /// A disc or ball in which the body always is, if there is one.
-    fn surroundings(&self, capsule: &Capsule) -> Option<([Interval; 3], Interval)> {
-        let leg = |j: LegIndex| self.leg(j);
-        match capsule.body {
-            Body::Crank(j) => Some((leg(j).anchor, leg(j).actuator.as_revolute()?.crank)),
-            Body::Rod(j) => {
-                let reach = match leg(j).actuator.as_revolute() {
-                    Some(links) => links.crank + links.rod,
-                    None if leg(j).actuator.kind().facts().is_positive => leg(j).length_range()?.1,
-                    None => return None,
-                };
-                Some((leg(j).anchor, reach))
-            }
-            Body::Platform(_) => None,
-            Body::Obstacle(_) => {
-                let [from, to] = capsule.ends?;
-                let half: [Interval; 3] = std::array::from_fn(|k| (to[k] - from[k]) * Interval::point(0.5));
-                Some((std::array::from_fn(|k| from[k] + half[k]), dot(&half, &half).sqrt()))
-            }
-        }
+    /// The anchor that a link hangs on, and how far it reaches from there at most, if that is known.
+    fn reach_of(&self, body: Body) -> Option<([Interval; 3], Interval)> {
+        let leg = self.leg(body.leg()?);
+        let links = leg.actuator.as_revolute();
+        let reach = match body {
+            Body::Crank(_) => links?.crank,
+            Body::Rod(_) | Body::Platform(_) | Body::Obstacle(_) => match links {
+                Some(links) => links.crank + links.rod,
+                None if leg.actuator.kind().facts().is_positive => leg.length_range()?.1,
+                None => return None,
+            },
+        };
+        Some((leg.anchor, reach))
     }
 }

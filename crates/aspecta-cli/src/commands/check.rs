@@ -3,6 +3,7 @@
 use crate::failure::{Answer, Failure};
 use crate::input::warn_of_mixed_units;
 use crate::show::doubts::warn_of_architecture;
+use crate::show::facts;
 use aspecta::robot::Robot;
 use aspecta_view::words::count;
 use clap::Args;
@@ -26,6 +27,7 @@ impl Check {
         let modes = count(robot.working_modes().len(), "working mode", "working modes");
         let (name, platform, legs) = (&robot.name, robot.platform, robot.dof());
         writeln!(out, "{file}: `{name}` is a {platform} with {legs} legs and {modes}")?;
+        facts::bodies(out, &robot)?;
         warn_of_mixed_units(&robot);
         warn_of_architecture(&robot);
         Ok(Answer::Yes)

@@ -19,14 +19,7 @@ pub fn print(out: &mut dyn Write, robot: &Robot) -> io::Result<()> {
         writeln!(out, "  leg {}: {}", k + 1, of_leg(leg, robot))?;
     }
     robot.rod_angles.iter().try_for_each(|limit| writeln!(out, "  {}", limit.in_words()))?;
-    for capsule in &robot.bodies {
-        writeln!(out, "  body: {}", capsule.in_words(&robot.length_unit))?;
-    }
-    if !robot.bodies.is_empty() {
-        let pairs: Vec<String> = robot.pairs.iter().map(ToString::to_string).collect();
-        let pairs = if pairs.is_empty() { "no two of them can meet".to_owned() } else { pairs.join("; ") };
-        writeln!(out, "  kept apart: {pairs}")?;
-    }
+    bodies(out, robot)?;
     let coordinates = robot.platform.coordinates().iter().zip(&robot.window);
     let cut = coordinates.filter_map(|(c, range)| {
         range.map(|(lo, hi)| format!("{} {} to {}", c.name, number(lo), number(hi)))
@@ -34,6 +27,21 @@ pub fn print(out: &mut dyn Write, robot: &Robot) -> io::Result<()> {
     let cut: Vec<String> = cut.collect();
     let window = if cut.is_empty() { "none".to_owned() } else { cut.join(", ") };
     writeln!(out, "  window: {window}")
+}
+
+/// Prints the bodies of a robot, and which of them keep clear of one another.
+pub fn bodies(out: &mut dyn Write, robot: &Robot) -> io::Result<()> {
+    if robot.bodies.is_empty() && robot.pairs.is_empty() {
+        return Ok(());
+    }
+    let list = |parts: Vec<String>, otherwise: &str| match parts.is_empty() {
+        true => otherwise.to_owned(),
+        false => parts.join("; "),
+    };
+    let all = robot.bodies.iter().map(|capsule| capsule.in_words(&robot.length_unit));
+    writeln!(out, "  bodies: {}", list(all.collect(), "none"))?;
+    let pairs = robot.pairs.iter().map(ToString::to_string);
+    writeln!(out, "  kept apart: {}", list(pairs.collect(), "no two of them can meet"))
 }
 
 fn of_leg(leg: &Leg, robot: &Robot) -> String {

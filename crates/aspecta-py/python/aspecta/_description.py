@@ -39,6 +39,7 @@ class Description:
         length_unit: str | None = None,
         window: Mapping[str, Any] | None = None,
         rod_angles: Sequence[Mapping[str, Any]] | None = None,
+        bodies: Mapping[str, Any] | None = None,
         obstacles: Sequence[Mapping[str, Any]] | None = None,
     ) -> None:
         if (name_or_path is None) == (platform is None):
@@ -54,6 +55,7 @@ class Description:
                 "platform": platform,
             }
             table |= {"legs": [_input.plain(leg) for leg in legs or ()], "window": _input.plain(window)}
+            table["bodies"] = _input.plain(bodies)
             for key, given_tables in (("rod-angles", rod_angles), ("obstacles", obstacles)):
                 table[key] = [_input.plain(one) for one in given_tables or ()] or None
             given = {key: value for key, value in table.items() if value is not None}

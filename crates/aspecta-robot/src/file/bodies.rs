@@ -24,9 +24,8 @@ impl Context<'_> {
                 "the links of a `turning-body` are arcs round its centre, of any radius: they have no bodies";
             return Err(out_of_place(span, reason.into()));
         }
-        for (j, leg) in file.legs.iter().enumerate() {
-            self.add_links(file, leg, LegIndex::new(j), robot)?;
-        }
+        let links = self.links(file)?;
+        robot.bodies.extend(links.into_iter().filter(|(_, is_body)| *is_body).map(|(link, _)| link));
         let platform = file.bodies.iter().flat_map(|table| &table.value.platform);
         for (k, table) in platform.enumerate() {
             let capsule = self.capsule(table, Body::Platform(k + 1))?;
@@ -62,25 +61,41 @@ impl Context<'_> {
                 return Err(out_of_place(span, reason));
             }
             if robot.always_touch(pair) {
-                let reason = format!(
-                    "{pair} touch in every configuration: the joints at which they begin or end are nearer to one another than {} {}; lessen their radii or the clearance",
-                    brief(pair.distance.mid()),
-                    robot.length_unit
-                );
+                let reason = match pair.is_thin() {
+                    true => format!(
+                        "{pair} touch in every configuration, where they begin or end: move one of them"
+                    ),
+                    false => format!(
+                        "{pair} touch in every configuration: where they begin or end they are nearer to one another than {} {}; lessen their radii or the clearance",
+                        brief(pair.distance.mid()),
+                        robot.length_unit
+                    ),
+                };
                 return Err(out_of_place(span, reason));
             }
         }
         Ok(())
     }
 
-    /// The links of a leg, as far as they have a radius.
-    fn add_links(
+    /// All links, thin ones where they have no radius, and whether they have one.
+    pub fn links(&self, file: &RobotFile) -> Result<Vec<(Capsule, bool)>, Fault> {
+        let legs = file.legs.iter().enumerate();
+        let all =
+            legs.map(|(j, leg)| self.links_of(file, leg, LegIndex::new(j))).collect::<Result<Vec<_>, _>>()?;
+        let link = |(radius, thin): (Option<Interval>, Capsule)| {
+            (Capsule { radius: radius.unwrap_or(ZERO), ..thin }, radius.is_some())
+        };
+        Ok(all.into_iter().flatten().map(link).collect())
+    }
+
+    /// The links of a leg, and their radii if they have some.
+    fn links_of(
         &self,
         file: &RobotFile,
         leg: &At<LegTable>,
         j: LegIndex,
-        robot: &mut Robot,
-    ) -> Result<(), Fault> {
+    ) -> Result<Vec<(Option<Interval>, Capsule)>, Fault> {
+        let mut links = Vec::new();
         let facts = leg.value.actuator.value.kind.value.facts();
         let own = leg.value.bodies.as_ref().map(|table| &table.value);
         let crank = own.and_then(|own| own.crank.as_ref());
@@ -96,14 +111,22 @@ impl Context<'_> {
             [(facts.has_elbow, Body::Crank(j), crank), (facts.has_rod, Body::Rod(j), rod)]
         {
             let said = [link.map_or([None; 2], of_link), whole, all];
-            if let Some(radius) = said.iter().find_map(|[radius, _]| *radius).filter(|_| exists) {
-                let radius = self.at_least_zero(radius, "a radius")?;
-                let layer = said.iter().find_map(|[_, layer]| *layer);
-                let layer = layer.map_or(Ok(0), |layer| self.layer(layer))?;
-                robot.bodies.push(Capsule { body, radius, layer, ends: None });
+            let radius = said.iter().find_map(|[radius, _]| *radius);
+            let layer = said.iter().find_map(|[_, layer]| *layer);
+            let layer = layer.map(|layer| self.layer(layer)).transpose()?.or(self.first_layer());
+            if exists {
+                links.push((
+                    radius.map(|radius| self.at_least_zero(radius, "a radius")).transpose()?,
+                    Capsule { body, radius: ZERO, layer, ends: None },
+                ));
             }
         }
-        Ok(())
+        Ok(links)
+    }
+
+    /// The layer of what is said to be in none.
+    fn first_layer(&self) -> Option<i32> {
+        (self.platform.space() == 2).then_some(0)
     }
 
     /// The number of a layer.
@@ -133,7 +156,7 @@ impl Context<'_> {
         };
         let is_round = ends[0] == ends[1];
         let radius = if is_round { self.length(radius)? } else { self.at_least_zero(radius, "a radius")? };
-        let layer = layer.as_ref().map_or(Ok(0), |layer| self.layer(layer))?;
+        let layer = layer.as_ref().map(|layer| self.layer(layer)).transpose()?.or(self.first_layer());
         Ok(Capsule { body, radius, layer, ends: Some(ends) })
     }
 

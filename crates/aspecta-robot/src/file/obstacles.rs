@@ -23,6 +23,7 @@ enum Shape {
 impl Context<'_> {
     /// Keeps a robot, which is complete but for them, clear of the obstacles.
     pub fn add_obstacles(&self, file: &RobotFile, robot: &mut Robot) -> Result<(), Fault> {
+        let links: Vec<Capsule> = self.links(file)?.into_iter().map(|(link, _)| link).collect();
         for (k, table) in file.obstacles.iter().enumerate() {
             if k >= MOST_OBSTACLES {
                 return Err(out_of_place(
@@ -38,10 +39,16 @@ impl Context<'_> {
             let layer = table.value.layer.as_ref().map(|layer| self.layer(layer)).transpose()?;
             let near = Near { number: k + 1, clearance, layer };
             match self.shape(table)? {
-                Shape::Solid(solid) => near.keep_links_clear(robot, solid, table)?,
+                Shape::Solid(solid) => {
+                    near.keep_platform_clear(robot, &solid, table)?;
+                    near.keep_links_clear(robot, solid, &links, table)?;
+                }
                 Shape::Bar(ends, radius) => {
-                    let links = links(robot);
-                    self.keep_clear_of_bar(robot, &near, (ends, radius), links, table)?;
+                    let mut bodies = links.clone();
+                    bodies.extend(
+                        robot.bodies.iter().filter(|capsule| matches!(capsule.body, Body::Platform(_))),
+                    );
+                    self.keep_clear_of_bar(robot, &near, (ends, radius), bodies, table)?;
                 }
             }
         }
@@ -58,9 +65,9 @@ impl Context<'_> {
         table: &At<ObstacleTable>,
     ) -> Result<(), Fault> {
         let body = Body::Obstacle(near.number);
-        let bar = Capsule { body, radius, layer: near.layer.unwrap_or(0), ends: Some(ends) };
+        let bar = Capsule { body, radius, layer: near.layer, ends: Some(ends) };
         robot.bodies.push(bar);
-        let there = bodies.iter().filter(|capsule| near.is_in_layer_of(capsule));
+        let there = bodies.iter().filter(|capsule| bar.is_in_layer_of(capsule));
         let pairs: Vec<_> = there.filter_map(|capsule| robot.pair([capsule, &bar], near.clearance)).collect();
         self.check_pairs(&table.span, robot, &pairs)?;
         robot.pairs.extend(pairs);
@@ -124,8 +131,8 @@ struct Near {
 }
 
 impl Near {
-    fn is_in_layer_of(&self, capsule: &Capsule) -> bool {
-        self.layer.is_none_or(|layer| layer == capsule.layer)
+    fn has(&self, capsule: &Capsule) -> bool {
+        self.layer.is_none() || capsule.layer.is_none() || self.layer == capsule.layer
     }
 
     /// Gives each leg its limits at the obstacle.
@@ -133,28 +140,29 @@ impl Near {
         &self,
         robot: &mut Robot,
         solid: Solid,
+        links: &[Capsule],
         table: &At<ObstacleTable>,
     ) -> Result<(), Fault> {
-        self.keep_platform_clear(robot, &solid, table)?;
-        let links = links(robot);
         for (j, leg) in robot.legs.iter_mut().enumerate() {
             let index = LegIndex::new(j);
+            if self.is_at_its_anchor(&solid, leg, index, links) {
+                let reason = format!(
+                    "it reaches the anchor of leg {index}, so that no configuration is clear of it: move it, or lessen its clearance"
+                );
+                return Err(out_of_place(&table.span, reason));
+            }
             for &part in solid.parts_of(leg) {
-                // The elbow of a slider is an end of its rod.
-                let has_crank = leg.actuator.kind().facts().has_elbow;
-                let body = if part.is_driven() && has_crank { Body::Crank(index) } else { Body::Rod(index) };
-                let Some(link) = links.iter().find(|link| link.body == body) else { continue };
-                if !self.is_in_layer_of(link) {
+                // Crank and rod both have the elbow, that of a slider is an end of its rod alone.
+                let bodies: &[Body] = match part {
+                    LinkPart::Crank => &[Body::Crank(index)],
+                    LinkPart::Elbow => &[Body::Crank(index), Body::Rod(index)],
+                    LinkPart::Rod | LinkPart::End => &[Body::Rod(index)],
+                };
+                let there = links.iter().filter(|link| bodies.contains(&link.body) && self.has(link));
+                let Some(radius) = there.map(|link| link.radius).max_by(|a, b| a.hi.total_cmp(&b.hi)) else {
                     continue;
-                }
-                let distance =
-                    if link.radius.hi == 0.0 { self.clearance } else { self.clearance + link.radius };
-                if is_at_its_anchor(&solid, distance, leg, part) {
-                    let reason = format!(
-                        "it reaches the anchor of leg {index}, so that no configuration is clear of it: move it, or lessen its clearance"
-                    );
-                    return Err(out_of_place(&table.span, reason));
-                }
+                };
+                let distance = self.distance_from(radius);
                 let clearance = Clearance { obstacle: self.number, solid, part, distance };
                 if clearance.matters_to(leg) {
                     leg.limits.push(Limit::Clearance(clearance));
@@ -162,6 +170,23 @@ impl Near {
             }
         }
         Ok(())
+    }
+
+    /// How far the axis of what has this radius stays away.
+    fn distance_from(&self, radius: Interval) -> Interval {
+        if radius.hi == 0.0 { self.clearance } else { self.clearance + radius }
+    }
+
+    /// Whether the link of a leg that stands on its anchor is never clear of it. Sliders move away from theirs.
+    fn is_at_its_anchor(&self, solid: &Solid, leg: &Leg, index: LegIndex, links: &[Capsule]) -> bool {
+        let facts = leg.actuator.kind().facts();
+        let standing = match (facts.has_elbow, facts.is_positive) {
+            (true, _) => Body::Crank(index),
+            (false, true) => Body::Rod(index),
+            (false, false) => return false,
+        };
+        let link = links.iter().find(|link| link.body == standing && self.has(link));
+        link.is_some_and(|link| !solid.margin_of(&leg.anchor, self.distance_from(link.radius)).is_positive())
     }
 
     /// Adds the pairs of bodies of the platform and a disc or ball.
@@ -172,11 +197,11 @@ impl Near {
         table: &At<ObstacleTable>,
     ) -> Result<(), Fault> {
         let bodies = robot.bodies.iter().filter(|capsule| matches!(capsule.body, Body::Platform(_)));
-        let bodies: Vec<Capsule> = bodies.filter(|capsule| self.is_in_layer_of(capsule)).copied().collect();
+        let bodies: Vec<Capsule> = bodies.filter(|capsule| self.has(capsule)).copied().collect();
         match solid {
             _ if bodies.is_empty() => {}
             Solid::Ball { centre, radius } => {
-                let (body, layer) = (Body::Obstacle(self.number), self.layer.unwrap_or(0));
+                let (body, layer) = (Body::Obstacle(self.number), self.layer);
                 let ball = Capsule { body, radius: *radius, layer, ends: Some([*centre; 2]) };
                 let pairs: Vec<_> = bodies
                     .iter()
@@ -192,26 +217,4 @@ impl Near {
         }
         Ok(())
     }
-}
-
-/// All links and bodies of the platform; of links without a radius the axes.
-fn links(robot: &Robot) -> Vec<Capsule> {
-    let mut all = robot.bodies.clone();
-    all.retain(|capsule| !matches!(capsule.body, Body::Obstacle(_)));
-    for (j, leg) in robot.legs.iter().enumerate() {
-        let (facts, j) = (leg.actuator.kind().facts(), LegIndex::new(j));
-        for (exists, body) in [(facts.has_elbow, Body::Crank(j)), (facts.has_rod, Body::Rod(j))] {
-            if exists && robot.capsule(body).is_none() {
-                all.push(Capsule { body, radius: Interval::point(0.0), layer: 0, ends: None });
-            }
-        }
-    }
-    all
-}
-
-/// Whether this part of the leg, which stands on its anchor, is never clear of it. Sliders move away from theirs.
-fn is_at_its_anchor(solid: &Solid, distance: Interval, leg: &Leg, part: LinkPart) -> bool {
-    let facts = leg.actuator.kind().facts();
-    let stands = part.is_driven() && facts.has_elbow || facts.is_positive;
-    stands && !solid.margin_of(&leg.anchor, distance).is_positive()
 }

@@ -137,6 +137,9 @@ impl Scalar for Ball {
     fn nearest<const D: usize>(links: &TwoLinks<Self, D>) -> Nearest<Self> {
         Interval::nearest(&links.map(Interval::from)).map(Self::from)
     }
+    fn least_square<const D: usize>(links: &TwoLinks<Self, D>) -> Self {
+        Interval::least_square(&links.map(Interval::from)).into()
+    }
 }
 
 impl Neg for Ball {

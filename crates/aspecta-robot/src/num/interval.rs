@@ -221,6 +221,10 @@ impl Scalar for Interval {
     fn nearest<const D: usize>(links: &TwoLinks<Self, D>) -> Nearest<Self> {
         links.nearest_enclosed()
     }
+
+    fn least_square<const D: usize>(links: &TwoLinks<Self, D>) -> Self {
+        links.least_square_enclosed()
+    }
 }
 
 impl Neg for Interval {

@@ -75,6 +75,14 @@ impl Products<Interval> {
         ((u * self.both + self.along_second) / self.second).clamped()
     }
 
+    /// The u that are best for these v.
+    fn first_for(&self, v: Interval) -> Interval {
+        if self.first.contains(0.0) {
+            return Interval::new(0.0, 1.0);
+        }
+        ((v * self.both - self.along_first) / self.first).clamped()
+    }
+
     /// Half the derivative by u of the least value over v.
     fn slope(&self, u: f64) -> Interval {
         let u = Interval::point(u);
@@ -84,6 +92,8 @@ impl Products<Interval> {
 
 /// Halvings of the range of u from either end.
 const HALVINGS: usize = 8;
+/// How often it is then narrowed by what is best for the other link.
+const NARROWINGS: usize = 3;
 
 impl<const D: usize> TwoLinks<Interval, D> {
     /// The least value over v is convex in u: where its derivative is surely positive the nearest points lie before, where it is negative after.
@@ -109,12 +119,32 @@ impl<const D: usize> TwoLinks<Interval, D> {
                 Interval::new(lo, hi)
             }
         };
+        let mut first = first;
+        for _ in 0..NARROWINGS {
+            first = products.first_for(products.second_for(first)).meet(first);
+        }
         // A link without length is one point.
         let none = |length: Interval, at: Interval| if length.hi == 0.0 { Interval::point(0.0) } else { at };
         Nearest {
             first: none(products.first, first),
             second: none(products.second, products.second_for(first)),
         }
+    }
+}
+
+impl<const D: usize> TwoLinks<Interval, D> {
+    /// The square of the distance is convex in (u, v): a tangent plane is below it, best where it is about level; and any (u, v) has no less than
+    /// the least.
+    pub(super) fn least_square_enclosed(&self) -> Interval {
+        let all = self.nearest_enclosed();
+        let at = self.map(Interval::mid).nearest_numbers().map(Interval::point);
+        let between = self.between(&at);
+        let square = (1..D).fold(between[0].square(), |sum, k| sum + between[k].square());
+        let slopes = [dot(&between, &self.first), -dot(&between, &self.second)];
+        let ways = [all.first - at.first, all.second - at.second];
+        let way = slopes.iter().zip(ways).fold(Interval::point(0.0), |sum, (slope, way)| sum + *slope * way);
+        let tangent = square + way + way;
+        Interval { lo: tangent.lo.max(0.0).min(square.hi), hi: square.hi }
     }
 }
 
@@ -219,6 +249,17 @@ mod tests {
             let (slope, h) = (jet(t).gradient[0], 1e-4);
             let quotient = (f64::least_square(&at(t + h)) - f64::least_square(&at(t - h))) / (2.0 * h);
             assert!((slope - quotient).abs() < 1e-3 * size.max(1e-3), "{slope} {quotient}");
+        }
+    }
+
+    /// Of links that are known the distance is too, to rounding.
+    #[test]
+    fn numbers_are_enclosed_tightly() {
+        let random = &mut Random::new(5);
+        for _ in 0..2000 {
+            let links = links(random);
+            let range = Interval::least_square(&links.map(Interval::point));
+            assert!(range.width() < 1e-12 && range.contains(f64::least_square(&links)), "{range} {links:?}");
         }
     }
 

@@ -169,6 +169,10 @@ impl Scalar for Pack {
         Nearest { first: Self::from_fn(|k| all[k].first), second: Self::from_fn(|k| all[k].second) }
     }
 
+    fn least_square<const D: usize>(links: &TwoLinks<Self, D>) -> Self {
+        Self::from_fn(|k| Interval::least_square(&links.map(|x| x.lane(k))))
+    }
+
     fn sin_cos(self) -> (Self, Self) {
         let within = |x: &[f64; LANES]| x.iter().all(|x| x.abs() < trig::MOST_ANGLE);
         if !(within(&self.lo) && within(&self.hi)) {

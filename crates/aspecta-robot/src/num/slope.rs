@@ -228,8 +228,11 @@ impl<T: Enclosure, const N: usize> Scalar for Slope<T, N> {
             let term = |i: usize| moved[i] * (here[i] + there[i]);
             (1..D).fold(term(0), |sum, i| sum + term(i))
         };
-        let range = (1..D).fold(here[0].square(), |sum, i| sum + here[i].square());
-        Self { range, centre: T::least_square(&at_centre), slope: each!(|k| along(k)) }
+        Self {
+            range: T::least_square(&over),
+            centre: T::least_square(&at_centre),
+            slope: each!(|k| along(k)),
+        }
     }
 
     #[inline(always)]

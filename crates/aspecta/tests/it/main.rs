@@ -5,6 +5,7 @@
 
 mod agile_eye;
 mod aspects;
+mod bodies;
 mod catalogue;
 mod characteristic;
 mod check;

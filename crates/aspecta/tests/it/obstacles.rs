@@ -12,17 +12,17 @@ use aspecta::robot::{Clearance, Limit, LinkPart, Platform, Robot, Solid, catalog
 use aspecta::verify::verify;
 
 /// The catalogue's robot with these tables at the end of its file.
-fn with(name: &str, obstacles: &str) -> Robot {
+pub fn with(name: &str, obstacles: &str) -> Robot {
     let text = catalogue::all().iter().find(|entry| entry.name == name).unwrap().text;
     Robot::from_toml(&format!("{text}\n{obstacles}\n"), "obstacles.toml").unwrap()
 }
 
-fn disc(centre: [f64; 2], radius: f64) -> String {
+pub fn disc(centre: [f64; 2], radius: f64) -> String {
     format!("[[obstacles]]\ncentre = {centre:?}\nradius = {radius:?}\n")
 }
 
 /// A five-bar from A to B, its cranks and rods, and tables.
-fn five_bar(anchors: [[f64; 2]; 2], links: [[f64; 2]; 2], obstacles: &str) -> Robot {
+pub fn five_bar(anchors: [[f64; 2]; 2], links: [[f64; 2]; 2], obstacles: &str) -> Robot {
     let leg = |j: usize| {
         let [crank, rod] = links[j];
         format!(
@@ -34,14 +34,14 @@ fn five_bar(anchors: [[f64; 2]; 2], links: [[f64; 2]; 2], obstacles: &str) -> Ro
     Robot::from_toml(&text, "five-bar.toml").unwrap()
 }
 
-const LINKS: [[f64; 2]; 2] = [[8.0, 5.0], [5.0, 8.0]];
+pub const LINKS: [[f64; 2]; 2] = [[8.0, 5.0], [5.0, 8.0]];
 
-fn analyzed(robot: &Robot) -> Analysis {
+pub fn analyzed(robot: &Robot) -> Analysis {
     let options = Options { certificate: true, ..Options::default() };
     analyze(robot, &options, &Control::unwatched()).unwrap()
 }
 
-fn is_accepted(certificate: &Certificate) -> bool {
+pub fn is_accepted(certificate: &Certificate) -> bool {
     // As it is read, which refuses some.
     let text = certificate.to_json().unwrap();
     Certificate::from_json(text.as_bytes())
@@ -49,7 +49,7 @@ fn is_accepted(certificate: &Certificate) -> bool {
 }
 
 /// The number of aspects, if it is certain.
-fn exact(robot: &Robot) -> usize {
+pub fn exact(robot: &Robot) -> usize {
     let analysis = analyze(robot, &Options::default(), &Control::unwatched()).unwrap();
     assert!(analysis.aspects.certified, "{:?} {:?}", analysis.aspects, analysis.doubts);
     analysis.aspects.low
@@ -102,7 +102,7 @@ fn random_robots_are_exact() {
     assert!(exact >= 8, "{exact}");
 }
 
-type Point = [f64; 3];
+pub type Point = [f64; 3];
 
 fn norm(v: Point) -> f64 {
     v.iter().map(|x| x * x).sum::<f64>().sqrt()
@@ -128,7 +128,7 @@ fn from_segment(o: Point, a: Point, b: Point) -> f64 {
 }
 
 /// A, B and C of a leg, B being A for struts: where the crank or the slider is, and where the row of A, 2 (C − B), says that C is.
-fn joints(robot: &Robot, pose: &[f64], q: &[f64], j: usize) -> [Point; 3] {
+pub fn joints(robot: &Robot, pose: &[f64], q: &[f64], j: usize) -> [Point; 3] {
     let leg = &robot.legs[j];
     let a = leg.anchor.map(|x| x.mid());
     let elbow = match (leg.actuator.as_revolute(), leg.actuator.rigid_rod()) {
