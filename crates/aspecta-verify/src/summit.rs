@@ -1,16 +1,18 @@
 //! The proof that P has no maximum in a box: tangent vectors along which all grows that can be the least.
 
+mod parted;
+
 use super::body::MOST;
 use super::contact::{Apart, Line};
 use super::curvature::has_no_maximum;
 use super::direction::climbable;
 use super::in_mode::{Existence, InMode};
 use super::place::{ANY, Heights, ONE, OWN, Posture, ZERO, halves};
-use super::rods::Shared;
-use super::turns::{Joint, Turn, are_impossible};
+use super::turns::{Turn, are_impossible};
 use aspecta_robot::AXES;
 use aspecta_robot::constraint::Constraint;
 use aspecta_robot::num::{Interval, Scalar, cross};
+use parted::{Parted, possible};
 
 /// A vector along the axes.
 type Direction = [Interval; AXES];
@@ -286,30 +288,6 @@ impl<const D: usize> InMode<'_, '_, D> {
             Velocity { vector: joined(&along, &joints), level }
         };
         Some(directions(self.place.setting.axes.len(), &normals)?.into_iter().map(velocity).collect())
-    }
-}
-
-/// Two thin bodies that may nearly touch.
-struct Parted {
-    /// Lines, one of which must part them: the functions of which the lesser counts, and turns.
-    lines: Vec<([Bound; 2], Vec<Turn>)>,
-    /// The ends of both.
-    joints: [Joint; 4],
-}
-
-/// Of lines that part two bodies those that may be the best; none at all if something else is always less.
-fn possible(mut lines: Vec<([Bound; 2], Vec<Turn>)>, least: f64) -> Option<Vec<([Bound; 2], Vec<Turn>)>> {
-    let lowest = |ends: &[Bound; 2]| ends[0].value.lo.min(ends[1].value.lo);
-    let highest = |ends: &[Bound; 2]| ends[0].value.hi.min(ends[1].value.hi);
-    let best = lines.iter().map(|line| lowest(&line.0)).fold(f64::NEG_INFINITY, f64::max);
-    lines.retain(|line| highest(&line.0) >= best);
-    (best <= least).then_some(lines)
-}
-
-impl Shared {
-    /// As one of the functions whose least is P, `size` being its scale.
-    fn bound(&self, size: Interval) -> Bound {
-        Bound { value: self.range / size, gradient: joined(&self.along, &self.by_joint), height_of: None }
     }
 }
 

@@ -2,8 +2,9 @@
 
 use super::convert::Context;
 use super::error::Problem;
-use super::format::{At, CapsuleTable, LegTable, LinkTable, Number, RobotFile, Vector, hint};
+use super::format::{At, LegTable, Number, RobotFile, Vector, hint};
 use super::locate::Fault;
+use super::tables::{CapsuleTable, LinkTable};
 use crate::num::Interval;
 use crate::text::brief;
 use crate::{Body, BodyPair, Capsule, LegIndex, MOST_BODIES, MOST_PAIRS, Platform, Robot};

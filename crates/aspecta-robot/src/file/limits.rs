@@ -2,10 +2,9 @@
 
 use super::convert::Context;
 use super::error::Problem;
-use super::format::{
-    Angle, At, JointTable, LimitsTable, Number, Pair, Range, RobotFile, RodAngleTable, hint,
-};
+use super::format::{Angle, At, JointTable, LimitsTable, Number, Pair, Range, RobotFile, hint};
 use super::locate::Fault;
+use super::tables::RodAngleTable;
 use crate::frame::{into, unit};
 use crate::legs::Kind;
 use crate::num::Interval;

@@ -10,6 +10,7 @@ mod limits;
 mod locate;
 mod obstacles;
 mod schema;
+mod tables;
 mod words;
 
 pub use error::{FileError, Mistake, Problem};

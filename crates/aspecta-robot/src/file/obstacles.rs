@@ -3,8 +3,9 @@
 use super::bodies::out_of_place;
 use super::convert::Context;
 use super::error::Problem;
-use super::format::{At, ObstacleTable, RobotFile, hint};
+use super::format::{At, RobotFile, hint};
 use super::locate::Fault;
+use super::tables::ObstacleTable;
 use crate::frame::{dot, unit};
 use crate::num::Interval;
 use crate::{
