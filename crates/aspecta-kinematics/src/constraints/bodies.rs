@@ -4,6 +4,8 @@
 //! of the segments. In space that is smooth enough as it stands. In the plane it has corners, and P is made of smooth pieces of it
 //! (docs/theory.md, 5): where the segments do not cross, F is the least of the distances of the four ends from the other segment; and that
 //! they do not cross is said by a line that parts them. Of thin bodies this alone is asked.
+//!
+//! Functions are outlined: over the scalars of the paving each is thousands of instructions, and most bodies are far apart.
 
 use super::LegAt;
 use super::clearance::{Links, from_link};
@@ -98,6 +100,7 @@ pub(super) struct TwoBodies<T, const D: usize> {
 
 impl<T: Scalar, const D: usize> TwoBodies<T, D> {
     /// `leg` gives a leg and its s h.
+    #[inline(never)]
     pub(super) fn of<'a>(
         robot: &Robot,
         pair: &BodyPair,
@@ -147,6 +150,7 @@ impl<T: Scalar, const D: usize> TwoBodies<T, D> {
     }
 
     /// Positive just where they are clear of one another.
+    #[inline(never)]
     pub(super) fn margin(&self) -> T {
         if self.is_thin {
             let parted = |line: Line| self.side(line, 0).least(self.side(line, 1));
@@ -160,6 +164,7 @@ impl<T: Scalar, const D: usize> TwoBodies<T, D> {
     }
 
     /// Positive only where they are clear of one another, as discs or balls round them show.
+    #[inline(never)]
     pub(super) fn margin_of_surroundings(&self) -> T {
         let [first, second] = &self.axes;
         let half = Interval::point(0.5);
@@ -175,6 +180,7 @@ impl<T: Scalar, const D: usize> TwoBodies<T, D> {
     }
 
     /// One of its pieces.
+    #[inline(never)]
     pub(super) fn feature(&self, feature: Feature) -> T {
         let least = T::constant(self.distance.square());
         match feature {
@@ -193,6 +199,7 @@ impl<T: Scalar, const D: usize> TwoBodies<T, D> {
     }
 
     /// How far an end of one body is on the side of a line along, or across, the other.
+    #[inline(never)]
     fn side(&self, line: Line, end: usize) -> T {
         let (axis, point) = (&self.axes[line.along], self.axes[1 - line.along].end(end));
         let away: [T; D] = each!(|k| point[k] - axis.from[k]);
