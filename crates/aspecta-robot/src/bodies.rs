@@ -2,8 +2,9 @@
 
 use crate::leg_index::as_index;
 use crate::num::{Interval, Scalar, TwoLinks, dot};
+use crate::sound::is_in_space;
 use crate::text::brief;
-use crate::{LegIndex, LegSet, MOST_OBSTACLES, Platform, Robot, sane};
+use crate::{LegIndex, LegSet, MOST_OBSTACLES, Platform, Robot, is_one_point, sane};
 use serde::{Deserialize, Serialize, Serializer};
 use std::fmt;
 
@@ -150,9 +151,9 @@ impl Capsule {
         !(Interval::least_square(&links) - distance.square()).is_positive()
     }
 
-    /// Whether some layer has both.
-    pub(crate) fn is_in_layer_of(&self, other: &Self) -> bool {
-        self.layer.zip(other.layer).is_none_or(|(one, another)| one == another)
+    /// Whether it is in this layer.
+    pub(crate) fn is_in(&self, layer: Option<i32>) -> bool {
+        self.layer.zip(layer).is_none_or(|(one, another)| one == another)
     }
 
     /// Whether what reaches so far from a point of the base may come to it: anything may be met by a body that moves.
@@ -181,6 +182,12 @@ impl BodyPair {
 }
 
 impl Robot {
+    /// The pairs of bodies that are kept apart, in words.
+    pub fn kept_apart(&self) -> String {
+        let pairs: Vec<String> = self.pairs.iter().map(ToString::to_string).collect();
+        if pairs.is_empty() { "no two of them can meet".into() } else { pairs.join("; ") }
+    }
+
     /// The size of a body.
     pub fn capsule(&self, body: Body) -> Option<&Capsule> {
         self.bodies.iter().find(|capsule| capsule.body == body)
@@ -194,10 +201,10 @@ impl Robot {
     /// Whether the bodies and their pairs make sense.
     pub(crate) fn are_bodies_sound(&self) -> bool {
         let is_sound = |capsule: &Capsule| {
-            let flat = |v: &[Interval; 3]| self.platform.space() == 3 || v[2] == Interval::point(0.0);
+            let fits = |end: &[Interval; 3]| end.iter().all(sane) && is_in_space(end, self.platform.space());
             let is_placed = match (capsule.body.leg(), &capsule.ends) {
                 (Some(_), None) => true,
-                (None, Some(ends)) => ends.iter().all(|end| end.iter().all(sane) && flat(end)),
+                (None, Some(ends)) => ends.iter().all(fits),
                 (Some(_), Some(_)) | (None, None) => false,
             };
             let is_numbered = match capsule.body {
@@ -225,7 +232,7 @@ impl Robot {
             let by_limits = [among(first), among(second)];
             let needed = self
                 .pair([first, second], zero)
-                .filter(|_| first.is_in_layer_of(second) && by_limits != [0, 2] && by_limits != [2, 0]);
+                .filter(|_| first.is_in(second.layer) && by_limits != [0, 2] && by_limits != [2, 0]);
             needed.is_none_or(|needed| {
                 let is_it = |pair: &&BodyPair| {
                     pair.bodies == needed.bodies || pair.bodies == [needed.bodies[1], needed.bodies[0]]
@@ -243,7 +250,7 @@ impl Robot {
     pub(crate) fn pairs_to_keep_apart(&self, clearance: Interval) -> Vec<BodyPair> {
         let of = |(i, first): (usize, &Capsule)| {
             let (first, others) = (*first, &self.bodies[i + 1..]);
-            let others = others.iter().filter(move |second| first.is_in_layer_of(second));
+            let others = others.iter().filter(move |second| first.is_in(second.layer));
             others.filter_map(move |second| self.pair([&first, second], clearance)).collect::<Vec<_>>()
         };
         self.bodies.iter().enumerate().flat_map(of).collect()
@@ -263,13 +270,13 @@ impl Robot {
     fn share_a_joint(&self, both: [&Capsule; 2]) -> bool {
         use Body::{Crank, Obstacle, Platform, Rod};
         let stands = |j: LegIndex| self.leg(j).actuator.kind().facts().is_positive;
-        let one_anchor = |i: LegIndex, j: LegIndex| self.leg(i).anchor == self.leg(j).anchor;
+        let one_anchor = |i: LegIndex, j: LegIndex| is_one_point(&self.leg(i).anchor, &self.leg(j).anchor);
         match both.map(|capsule| capsule.body) {
             [Platform(_), Platform(_)] | [Obstacle(_), Obstacle(_)] => true,
             [Crank(i), Crank(j)] => one_anchor(i, j),
             [Crank(i), Rod(j)] | [Rod(j), Crank(i)] => i == j || stands(j) && one_anchor(i, j),
             [Rod(i), Rod(j)] => {
-                let one_end = self.leg(i).attachment == self.leg(j).attachment;
+                let one_end = is_one_point(&self.leg(i).attachment, &self.leg(j).attachment);
                 one_end || stands(i) && stands(j) && one_anchor(i, j)
             }
             [Rod(leg), Platform(_)] => self.is_jointed(leg, both[1]),

@@ -1,6 +1,7 @@
 //! Bodies of the surroundings that the links of a leg keep clear of.
 
 use crate::num::{Interval, Scalar, dot};
+use crate::sound::is_in_space;
 use crate::{Leg, Limit, Robot, sane};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -142,7 +143,7 @@ impl Clearance {
 
     /// Whether it can be one of a leg's.
     pub(crate) fn fits(&self, leg: &Leg, space: usize) -> bool {
-        let flat = |v: &[Interval; 3]| space == 3 || v[2] == Interval::point(0.0);
+        let flat = |v: &[Interval; 3]| is_in_space(v, space);
         let is_solid = match &self.solid {
             Solid::Ball { centre, radius } => {
                 centre.iter().all(sane) && flat(centre) && sane(radius) && radius.lo > 0.0

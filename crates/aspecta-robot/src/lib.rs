@@ -47,6 +47,7 @@ pub use rod_angle::{MOST_SHARED, RodAngle};
 pub use sizes::MixedUnits;
 pub use slice::SliceError;
 pub use sound::{Takes, Unsound, holds, sane, takes, usable, wanted};
+pub use twins::is_one_point;
 pub use window::{Unbounded, Window};
 pub use working_mode::{LegSet, NotAMode, WorkingMode};
 

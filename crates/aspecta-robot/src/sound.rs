@@ -107,6 +107,11 @@ pub fn sane(x: &Interval) -> bool {
     usable(x.lo) && usable(x.hi) && x.lo <= x.hi
 }
 
+/// Whether a point or direction of a planar machine lies in the plane; in space any does.
+pub(crate) fn is_in_space(v: &[Interval; 3], space: usize) -> bool {
+    space == 3 || v[2] == Interval::point(0.0)
+}
+
 /// Returns the fault of a leg, if it has one.
 fn fault_of_leg(leg: &Leg, platform: Platform) -> Option<&'static str> {
     if !leg.anchor.iter().chain(&leg.attachment).chain(leg.frame.as_flattened()).all(sane) {

@@ -27,6 +27,11 @@ impl Leg {
     }
 }
 
+/// Whether two enclosures of points are of one point: equal, and of numbers known to rounding. With a tolerance they are two points.
+pub fn is_one_point(a: &[Interval; 3], b: &[Interval; 3]) -> bool {
+    a == b && a.iter().copied().all(is_one_number)
+}
+
 fn is_one_number(x: Interval) -> bool {
     x.width() <= ONE_NUMBER * x.magnitude().max(1.0)
 }

@@ -10,7 +10,7 @@
 
 use super::body::MOST;
 use super::in_mode::InMode;
-use super::place::{Along, Function, OWN, Posture, ZERO};
+use super::place::{Along, Function, OWN, ZERO};
 use super::rods::Shared;
 use super::turns::{Joint, Turn, beside, joints};
 use aspecta_robot::num::{Interval, Jet, Scalar};
@@ -32,7 +32,7 @@ struct Part {
     v: Interval,
 }
 
-/// A pair of bodies over a box.
+/// A pair of bodies over a box, looked at in [`InMode::apart`].
 pub(super) enum Apart {
     /// Something else is less.
     Far,
@@ -196,29 +196,21 @@ impl Part {
 impl<const D: usize> InMode<'_, '_, D> {
     /// How far apart two bodies are, where something else is at most `least` (scaled).
     pub(super) fn apart(&self, pair: &BodyPair, scale: f64, least: f64) -> Apart {
-        let values = self.axes(pair, |leg, f| leg.value(f));
+        let values = self.axes(pair, |_, f| f.over.value);
         if is_far(&values, pair, scale, least) {
             return Apart::Far;
         }
-        let over = self.axes(pair, lifted);
-        let middle = self.axes(pair, |_, f| f.at_middle);
         match pair.is_thin() {
             false => {
-                let asked = pair.distance.square();
+                let nearest = |part: Part| Part::nearest(&values, vec![part]);
                 let parts = match D {
-                    2 => Part::edges()
-                        .into_iter()
-                        .flat_map(|edge| Part::nearest(&values, vec![edge]))
-                        .collect(),
-                    _ => Part::nearest(&values, vec![Part::WHOLE]),
+                    2 => Part::edges().into_iter().flat_map(nearest).collect(),
+                    _ => nearest(Part::WHOLE),
                 };
-                let least = |part: Part| {
-                    let phi = square(&between(&over, Both::constant(part.u), Both::constant(part.v)));
-                    self.shared(pair, phi - Both::constant(asked), part.least(&middle) - asked)
-                };
-                Apart::Least(parts.into_iter().map(least).collect())
+                Apart::Least(self.least_in(pair, parts))
             }
             true => {
+                let (over, middle) = (self.axes(pair, lifted), self.axes(pair, |_, f| f.at_middle));
                 let side = |line: usize, end: usize| {
                     self.shared(pair, on_side(&over, line, end), on_side(&middle, line, end))
                 };
@@ -239,10 +231,10 @@ impl<const D: usize> InMode<'_, '_, D> {
         match self.apart(pair, 1.0, 0.0) {
             Apart::Far => Interval { lo: f64::MIN_POSITIVE, hi: f64::INFINITY },
             Apart::Least(all) => {
-                let least = all.iter().map(|one| one.range);
-                let least = least.fold(Interval::point(f64::INFINITY), Interval::least);
+                let least = least_of(&all);
                 // Nearest at an end, if they do not cross.
-                if D == 2 && least.hi > 0.0 { least.least(self.distance_of(pair)) } else { least }
+                let may_cross = D == 2 && least.hi > 0.0;
+                if may_cross { least.least(self.distance_of(pair)) } else { least }
             }
             Apart::Parted(all, _) => {
                 let lesser = all.iter().map(|line| line.ends[0].range.least(line.ends[1].range));
@@ -253,23 +245,26 @@ impl<const D: usize> InMode<'_, '_, D> {
 
     /// Their least distance squared, less that asked for, wherever on the bodies that is.
     fn distance_of(&self, pair: &BodyPair) -> Interval {
-        let values = self.axes(pair, |leg, f| leg.value(f));
+        let values = self.axes(pair, |_, f| f.over.value);
+        least_of(&self.least_in(pair, Part::nearest(&values, vec![Part::WHOLE])))
+    }
+
+    /// The least φ in each part, less the square of the distance asked for.
+    fn least_in(&self, pair: &BodyPair, parts: Vec<Part>) -> Vec<Shared> {
         let (over, middle) = (self.axes(pair, lifted), self.axes(pair, |_, f| f.at_middle));
         let asked = pair.distance.square();
         let least = |part: Part| {
             let phi = square(&between(&over, Both::constant(part.u), Both::constant(part.v)));
-            self.shared(pair, phi - Both::constant(asked), part.least(&middle) - asked).range
+            self.shared(pair, phi - Both::constant(asked), part.least(&middle) - asked)
         };
-        let parts = Part::nearest(&values, vec![Part::WHOLE]).into_iter().map(least);
-        parts.fold(Interval::point(f64::INFINITY), Interval::least)
+        parts.into_iter().map(least).collect()
     }
 
     /// The axes of two bodies.
-    fn axes<T: Scalar>(&self, pair: &BodyPair, value: impl Fn(&Seen<'_>, &Point) -> T) -> [Axis<T>; 2] {
+    fn axes<T: Scalar>(&self, pair: &BodyPair, value: impl Fn(usize, &Point) -> T) -> [Axis<T>; 2] {
         std::array::from_fn(|slot| {
             let body = pair.bodies[slot];
             let leg = body.leg().map(|j| &*self.legs[j.index()]);
-            let seen = Seen { leg, slot };
             let ends = match (body, leg) {
                 (Body::Crank(_), Some(leg)) => [leg.joint(0), leg.joint(1)],
                 (Body::Rod(_), Some(leg)) => [leg.joint(1), leg.joint(2)],
@@ -277,7 +272,7 @@ impl<const D: usize> InMode<'_, '_, D> {
                     self.place.ends(body)
                 }
             };
-            let [from, to] = ends.map(|end| end.map(|f| value(&seen, &f)));
+            let [from, to] = ends.map(|end| end.map(|f| value(slot, &f)));
             Axis { from, along: std::array::from_fn(|k| to[k] - from[k]) }
         })
     }
@@ -307,26 +302,17 @@ pub(super) struct Point {
     pub at_middle: Interval,
 }
 
-/// Whose point is looked at.
-struct Seen<'a> {
-    leg: Option<&'a Posture>,
-    slot: usize,
-}
-
-impl Seen<'_> {
-    fn value(&self, f: &Point) -> Interval {
-        f.over.value
-    }
-}
-
-/// A function of one leg as one of both.
-fn lifted(seen: &Seen<'_>, f: &Point) -> Both {
+/// A function of one leg as one of both, that of the first or the second body. What is of no leg has no derivative by its q.
+fn lifted(slot: usize, f: &Point) -> Both {
     let mut gradient = [ZERO; AXES + 2];
     gradient[..AXES].copy_from_slice(&f.over.gradient[..AXES]);
-    if seen.leg.is_some() {
-        gradient[AXES + seen.slot] = f.over.gradient[OWN];
-    }
+    gradient[AXES + slot] = f.over.gradient[OWN];
     Both { value: f.over.value, gradient }
+}
+
+/// The least of several functions.
+fn least_of(all: &[Shared]) -> Interval {
+    all.iter().map(|one| one.range).fold(Interval::point(f64::INFINITY), Interval::least)
 }
 
 /// Whether the bodies are so far apart that their scaled margin is more than `least`: by the discs or balls round them.

@@ -160,9 +160,14 @@ impl<const D: usize> InMode<'_, '_, D> {
         let setting = self.place.setting;
         let scale = setting.scale;
         let exact = Interval::point;
+        let in_p = |constraint: Constraint, value: Interval| match constraint.counts_by_root(setting.robot) {
+            // Of what is below zero a root says nothing.
+            true if value.hi > 0.0 => value.sqrt(),
+            true | false => value,
+        };
         let of = |constraint: Constraint| {
             let size = exact(scale[constraint]);
-            match constraint {
+            Some(match constraint {
                 Constraint::Det => {
                     let det = self.determinant();
                     let gradient = joined(&det.along, &det.by_joint).map(|g| g * exact(sign));
@@ -178,16 +183,14 @@ impl<const D: usize> InMode<'_, '_, D> {
                     let leg = &self.legs[j.index()];
                     let gradient = of_leg(j.index(), &leg.over.limits[k].gradient);
                     let value = leg.limits[k] / size;
-                    let by_root = constraint.counts_by_root(setting.robot);
-                    Bound { value: if by_root { value.sqrt() } else { value }, gradient, height_of: None }
+                    Bound { value: in_p(constraint, value), gradient, height_of: None }
                 }
                 Constraint::RodAngle(_, k) => self.rod_angle(&setting.robot.rod_angles[k]).bound(size),
                 // They follow.
-                Constraint::Apart(..) => Bound { value: ANY, gradient: [ZERO; AXES + MOST], height_of: None },
-            }
+                Constraint::Apart(..) => return None,
+            })
         };
-        let single = |constraint: &Constraint| !matches!(constraint, Constraint::Apart(..));
-        let mut all: Vec<Bound> = Constraint::of(setting.robot).filter(single).map(of).collect();
+        let mut all: Vec<Bound> = Constraint::of(setting.robot).filter_map(of).collect();
         // det A, the last, comes first.
         all.rotate_right(1);
         for (a, &k) in setting.axes.iter().enumerate() {
@@ -211,10 +214,7 @@ impl<const D: usize> InMode<'_, '_, D> {
                 Apart::Far => {}
                 Apart::Least(distances) => all.extend(distances.iter().map(|distance| {
                     let bound = distance.bound(size);
-                    let by_root = constraint.counts_by_root(setting.robot);
-                    // Below zero a root says nothing.
-                    let by_root = by_root && bound.value.hi > 0.0;
-                    Bound { value: if by_root { bound.value.sqrt() } else { bound.value }, ..bound }
+                    Bound { value: in_p(constraint, bound.value), ..bound }
                 })),
                 Apart::Parted(lines, joints) => {
                     let bounds = |line: Line| (line.ends.each_ref().map(|end| end.bound(size)), line.turns);

@@ -1,6 +1,7 @@
 //! Which way three joints of a planar machine turn, and turns that cannot be at once (docs/theory.md, 5).
 
 use super::in_mode::InMode;
+use super::twins::is_one_number;
 use aspecta_robot::num::Interval;
 use aspecta_robot::{Body, LegIndex, Platform, Robot};
 
@@ -34,8 +35,10 @@ pub(super) fn joints(robot: &Robot, body: Body) -> [Name; 2] {
     let like = |leg: LegIndex, same: &dyn Fn(usize) -> bool| {
         (0..leg.index()).find(|&i| same(i)).unwrap_or(leg.index())
     };
-    let anchor = |leg: LegIndex| (0, like(leg, &|i| robot.legs[i].anchor == robot.leg(leg).anchor), 0);
-    let end = |leg: LegIndex| (2, like(leg, &|i| robot.legs[i].attachment == robot.leg(leg).attachment), 0);
+    let anchor =
+        |leg: LegIndex| (0, like(leg, &|i| is_one(&robot.legs[i].anchor, &robot.leg(leg).anchor)), 0);
+    let end =
+        |leg: LegIndex| (2, like(leg, &|i| is_one(&robot.legs[i].attachment, &robot.leg(leg).attachment)), 0);
     match body {
         Body::Crank(leg) => [anchor(leg), (1, leg.index(), 0)],
         Body::Rod(leg) if robot.leg(leg).actuator.postures() == 1 => [anchor(leg), end(leg)],
@@ -43,6 +46,11 @@ pub(super) fn joints(robot: &Robot, body: Body) -> [Name; 2] {
         Body::Platform(number) => [(3, number, 0), (3, number, 1)],
         Body::Obstacle(number) => [(4, number, 0), (4, number, 1)],
     }
+}
+
+/// Whether two points are one: the same numbers, known to rounding.
+fn is_one(a: &[Interval; 3], b: &[Interval; 3]) -> bool {
+    a == b && a.iter().all(is_one_number)
 }
 
 impl<const D: usize> InMode<'_, '_, D> {
@@ -56,11 +64,10 @@ impl<const D: usize> InMode<'_, '_, D> {
             (D == 2 && is_crank).then(|| Turn::new([anchor, elbow, end], self.mode.sign(j) < 0))
         };
         let mut all: Vec<Turn> = (0..robot.legs.len()).filter_map(of_leg).collect();
-        if robot.platform == Platform::PlanePoint
-            && self.place.setting.replaced_in(self.mode).next().is_none()
-        {
-            let [first, second] = [0, 1].map(|j| joints(robot, Body::Rod(LegIndex::new(j)))[0]);
-            let end = joints(robot, Body::Rod(LegIndex::new(0)))[1];
+        let setting = self.place.setting;
+        let [[first, end], [second, other]] = [0, 1].map(|j| joints(robot, Body::Rod(LegIndex::new(j))));
+        let is_of_rods = robot.platform == Platform::PlanePoint && end == other;
+        if is_of_rods && !setting.vanishes_in(self.mode) && setting.replaced_in(self.mode).next().is_none() {
             all.push(Turn::new([end, first, second], det > 0.0));
         }
         all
@@ -121,5 +128,70 @@ pub(super) fn beside(end: Joint, out: [Interval; 2], [x, y]: [Joint; 2]) -> Opti
         side if inside && side.is_positive() => Some(Turn::new([x.0, y.0, end.0], false)),
         side if inside && side.is_negative() => Some(Turn::new([x.0, y.0, end.0], true)),
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use aspecta_robot::num::Random;
+
+    const NAMES: [Name; 4] = [(3, 1, 0), (3, 1, 1), (3, 2, 0), (3, 2, 1)];
+
+    fn across([a, b, c]: [[f64; 2]; 3]) -> f64 {
+        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+    }
+
+    fn joint(k: usize, point: [f64; 2], radius: f64) -> Joint {
+        (NAMES[k], point.map(|x| Interval::new(x - radius, x + radius)))
+    }
+
+    /// Turns that points have are possible; of their opposites half are not, where the points are known to follow one another.
+    #[test]
+    fn what_points_do_is_possible() {
+        let random = &mut Random::new(5);
+        let mut told = 0;
+        for _ in 0..3000 {
+            let flat = 10f64.powf(random.within((-6.0, 0.0)));
+            let points: [[f64; 2]; 4] =
+                std::array::from_fn(|_| [random.within((-1.0, 1.0)), flat * random.within((-1.0, 1.0))]);
+            let radius = 10f64.powf(random.within((-8.0, -1.0)));
+            let all: Vec<Joint> = (0..4).map(|k| joint(k, points[k], radius)).collect();
+            let triples = [[3, 1, 2], [0, 1, 3], [2, 0, 3], [1, 2, 0]];
+            let turns = |flipped: usize| -> Vec<Turn> {
+                let left = |k: usize| across(triples[k].map(|i| points[i])) > 0.0;
+                (0..4)
+                    .map(|k| Turn::new(triples[k].map(|i| NAMES[i]), left(k) != (flipped >> k & 1 == 1)))
+                    .collect()
+            };
+            assert!(!are_impossible(&turns(0), &all), "{points:?} {radius}");
+            let found = (1..16).filter(|flipped| are_impossible(&turns(*flipped), &all)).count();
+            assert!(found == 0 || found == 8, "{found}");
+            told += usize::from(found == 8);
+        }
+        assert!(told > 600, "{told}");
+    }
+
+    #[test]
+    fn what_follows_beside_an_end_is_so() {
+        let random = &mut Random::new(3);
+        let mut seen = 0;
+        for _ in 0..20_000 {
+            let mut point = || [random.within((-1.0, 1.0)), random.within((-1.0, 1.0))];
+            let [from, end, x, y] = [point(), point(), point(), point()];
+            let out = [0, 1].map(|k| end[k] - from[k]);
+            let beyond = |p: [f64; 2]| (0..2).map(|k| out[k] * (p[k] - end[k])).sum::<f64>() > 0.0;
+            if beyond(x) && beyond(y) {
+                let found = beside(
+                    joint(1, end, 0.0),
+                    out.map(Interval::point),
+                    [joint(2, x, 0.0), joint(3, y, 0.0)],
+                );
+                let expected = Turn::new([NAMES[2], NAMES[3], NAMES[1]], across([x, y, end]) > 0.0);
+                assert!(found.is_none_or(|turn| turn == expected));
+                seen += usize::from(found.is_some());
+            }
+        }
+        assert!(seen > 500, "{seen}");
     }
 }

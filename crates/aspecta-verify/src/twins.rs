@@ -132,9 +132,13 @@ impl<const D: usize> Place<'_, D> {
 }
 
 fn is_exact(leg: &Leg) -> bool {
-    let one = |x: &Interval| x.hi - x.lo <= ONE_NUMBER * x.lo.abs().max(x.hi.abs()).max(1.0);
     let places = leg.anchor.iter().chain(&leg.attachment).chain(axis(leg));
-    places.chain(&constants(&leg.actuator)).all(one)
+    places.chain(&constants(&leg.actuator)).all(is_one_number)
+}
+
+/// Whether an enclosure is of one number, known to rounding: a wider one is a tolerance.
+pub(super) fn is_one_number(x: &Interval) -> bool {
+    x.hi - x.lo <= ONE_NUMBER * x.lo.abs().max(x.hi.abs()).max(1.0)
 }
 
 /// The axis about which the motor turns, or the direction in which it pushes: all of its frame that A depends on.

@@ -31,17 +31,12 @@ pub fn print(out: &mut dyn Write, robot: &Robot) -> io::Result<()> {
 
 /// Prints the bodies of a robot, and which of them keep clear of one another.
 pub fn bodies(out: &mut dyn Write, robot: &Robot) -> io::Result<()> {
-    if robot.bodies.is_empty() && robot.pairs.is_empty() {
+    if robot.bodies.is_empty() {
         return Ok(());
     }
-    let list = |parts: Vec<String>, otherwise: &str| match parts.is_empty() {
-        true => otherwise.to_owned(),
-        false => parts.join("; "),
-    };
-    let all = robot.bodies.iter().map(|capsule| capsule.in_words(&robot.length_unit));
-    writeln!(out, "  bodies: {}", list(all.collect(), "none"))?;
-    let pairs = robot.pairs.iter().map(ToString::to_string);
-    writeln!(out, "  kept apart: {}", list(pairs.collect(), "no two of them can meet"))
+    let all: Vec<String> = robot.bodies.iter().map(|capsule| capsule.in_words(&robot.length_unit)).collect();
+    writeln!(out, "  bodies: {}", all.join("; "))?;
+    writeln!(out, "  kept apart: {}", robot.kept_apart())
 }
 
 fn of_leg(leg: &Leg, robot: &Robot) -> String {

@@ -9,6 +9,7 @@
 
 use super::LegAt;
 use super::clearance::{Links, from_link};
+use crate::modal::LegClosure;
 use crate::placement::{Placement, out_of_frame};
 use aspecta_robot::legs::sum_of_squares;
 use aspecta_robot::num::{Interval, Scalar, TwoLinks, dot, each};
@@ -84,13 +85,63 @@ struct Axis<T, const D: usize> {
 }
 
 impl<T: Scalar, const D: usize> Axis<T, D> {
+    #[inline(never)]
+    fn of(
+        robot: &Robot,
+        body: Body,
+        placement: &Placement<T, D>,
+        legs: &[LegClosure<T, D>],
+        heights: &[T],
+    ) -> Self {
+        let link = |j: LegIndex| {
+            let at = LegAt::of(robot.leg(j), &legs[j.index()]);
+            let links = Links::of(&at, heights[j.index()]);
+            let anchor: [T; D] = each!(|k| T::constant(at.leg.anchor[k]));
+            (at.leg, links, anchor)
+        };
+        let fixed = || {
+            let zero = [Interval::point(0.0); 3];
+            let [from, to] = robot.capsule(body).and_then(|capsule| capsule.ends).unwrap_or([zero; 2]);
+            let along: [Interval; 3] = std::array::from_fn(|k| to[k] - from[k]);
+            (from, along, T::constant(dot(&along, &along)), from == to)
+        };
+        match body {
+            Body::Crank(j) => {
+                let (leg, links, from) = link(j);
+                let square = links.crank_square(leg);
+                Self { from, along: out_of_frame(leg, &links.crank), square, is_point: false }
+            }
+            Body::Rod(j) => {
+                let (leg, links, anchor) = link(j);
+                let crank = out_of_frame(leg, &links.crank);
+                let from = match leg.actuator.rigid_rod() {
+                    Some(_) => each!(|k| anchor[k] + crank[k]),
+                    None => anchor,
+                };
+                let square = links.rod_square(leg);
+                Self { from, along: out_of_frame(leg, &links.rod), square, is_point: false }
+            }
+            Body::Platform(_) => {
+                let (from, along, square, is_point) = fixed();
+                let (arm, origin) = (placement.turned(&from), placement.origin());
+                let from = each!(|k| origin[k] + arm[k]);
+                Self { from, along: placement.turned(&along), square, is_point }
+            }
+            Body::Obstacle(_) => {
+                let (from, along, square, is_point) = fixed();
+                let vector = |v: &[Interval; 3]| each!(|k| T::constant(v[k]));
+                Self { from: vector(&from), along: vector(&along), square, is_point }
+            }
+        }
+    }
+
     fn end(&self, which: usize) -> [T; D] {
         if which == 0 { self.from } else { each!(|k| self.from[k] + self.along[k]) }
     }
 }
 
-/// A pair of bodies in a configuration.
-pub(super) struct TwoBodies<T, const D: usize> {
+/// A pair of bodies in a configuration. The unit of all that is said of them is 1 ([`Configuration::unit`](super::Configuration::unit)).
+pub struct TwoBodies<T, const D: usize> {
     axes: [Axis<T, D>; 2],
     distance: Interval,
     is_thin: bool,
@@ -99,59 +150,21 @@ pub(super) struct TwoBodies<T, const D: usize> {
 }
 
 impl<T: Scalar, const D: usize> TwoBodies<T, D> {
-    /// `leg` gives a leg and its s h.
-    #[inline(never)]
-    pub(super) fn of<'a>(
+    /// With the legs at a pose, and s h of each.
+    pub(super) fn of(
         robot: &Robot,
         pair: &BodyPair,
         placement: &Placement<T, D>,
-        leg: impl Fn(LegIndex) -> (LegAt<'a, T, D>, T),
-    ) -> Self
-    where
-        T: 'a,
-    {
-        let fixed = |body: Body| {
-            let zero = [Interval::point(0.0); 3];
-            let [from, to] = robot.capsule(body).and_then(|capsule| capsule.ends).unwrap_or([zero; 2]);
-            let along: [Interval; 3] = std::array::from_fn(|k| to[k] - from[k]);
-            (from, along, T::constant(dot(&along, &along)), from == to)
-        };
-        let axis = |body: Body| match body {
-            Body::Crank(j) => {
-                let (at, sh) = leg(j);
-                let links = Links::of(&at, sh);
-                let square = links.crank_square(at.leg);
-                Axis { from: anchor(&at), along: out_of_frame(at.leg, &links.crank), square, is_point: false }
-            }
-            Body::Rod(j) => {
-                let (at, sh) = leg(j);
-                let (links, mut from) = (Links::of(&at, sh), anchor(&at));
-                if at.leg.actuator.rigid_rod().is_some() {
-                    let crank = out_of_frame(at.leg, &links.crank);
-                    from = each!(|k| from[k] + crank[k]);
-                }
-                let square = links.rod_square(at.leg);
-                Axis { from, along: out_of_frame(at.leg, &links.rod), square, is_point: false }
-            }
-            Body::Platform(_) => {
-                let (from, along, square, is_point) = fixed(body);
-                let (arm, origin) = (placement.turned(&from), placement.origin());
-                let from = each!(|k| origin[k] + arm[k]);
-                Axis { from, along: placement.turned(&along), square, is_point }
-            }
-            Body::Obstacle(_) => {
-                let (from, along, square, is_point) = fixed(body);
-                let vector = |v: &[Interval; 3]| each!(|k| T::constant(v[k]));
-                Axis { from: vector(&from), along: vector(&along), square, is_point }
-            }
-        };
-        let ends = ends(robot, pair);
-        Self { axes: pair.bodies.map(axis), distance: pair.distance, is_thin: pair.is_thin(), ends }
+        legs: &[LegClosure<T, D>],
+        heights: &[T],
+    ) -> Self {
+        let axes = pair.bodies.map(|body| Axis::of(robot, body, placement, legs, heights));
+        Self { axes, distance: pair.distance, is_thin: pair.is_thin(), ends: ends(robot, pair) }
     }
 
     /// Positive just where they are clear of one another.
     #[inline(never)]
-    pub(super) fn margin(&self) -> T {
+    pub fn margin(&self) -> T {
         if self.is_thin {
             let parted = |line: Line| self.side(line, 0).least(self.side(line, 1));
             let first = parted(Line { along: 0, side: Beside::Left });
@@ -163,9 +176,9 @@ impl<T: Scalar, const D: usize> TwoBodies<T, D> {
             .fold(self.feature(Feature::Distance), |least, end| least.least(self.feature(Feature::End(end))))
     }
 
-    /// Positive only where they are clear of one another, as discs or balls round them show.
+    /// Positive only where they are clear of one another, as discs or balls round them show: it costs less than [`Self::margin`].
     #[inline(never)]
-    pub(super) fn margin_of_surroundings(&self) -> T {
+    pub fn margin_of_surroundings(&self) -> T {
         let [first, second] = &self.axes;
         let half = Interval::point(0.5);
         let between: [T; D] =
@@ -175,13 +188,13 @@ impl<T: Scalar, const D: usize> TwoBodies<T, D> {
     }
 
     /// An end of one of the bodies, numbered as [`Feature::End`] is.
-    pub(super) fn end(&self, end: usize) -> [T; D] {
+    pub fn end(&self, end: usize) -> [T; D] {
         self.axes[end / 2].end(end % 2)
     }
 
     /// One of its pieces.
     #[inline(never)]
-    pub(super) fn feature(&self, feature: Feature) -> T {
+    pub fn feature(&self, feature: Feature) -> T {
         let least = T::constant(self.distance.square());
         match feature {
             Feature::Distance => T::least_square(&self.links()) - least,
@@ -217,9 +230,4 @@ impl<T: Scalar, const D: usize> TwoBodies<T, D> {
         let gap = each!(|k| first.from[k] - second.from[k]);
         TwoLinks { gap, first: first.along, second: second.along }
     }
-}
-
-/// A of a leg.
-fn anchor<T: Scalar, const D: usize>(at: &LegAt<'_, T, D>) -> [T; D] {
-    each!(|k| T::constant(at.leg.anchor[k]))
 }

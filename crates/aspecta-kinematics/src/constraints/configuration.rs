@@ -2,11 +2,11 @@
 
 use super::bodies::TwoBodies;
 use super::rods::TwoLegs;
-use super::{Constraint, Feature, LegAt, margin, unit};
+use super::{Constraint, LegAt, margin, unit};
 use crate::modal::{LegClosure, closures};
 use crate::placement::Placement;
 use aspecta_robot::WorkingMode;
-use aspecta_robot::num::{Interval, Jet, Scalar};
+use aspecta_robot::num::{Interval, Jet, Scalar, each};
 use aspecta_robot::{LegIndex, Robot};
 
 /// A configuration, or a box of them: the pose and the postures of the legs.
@@ -40,25 +40,9 @@ impl<'a, T: Scalar, const D: usize, const N: usize> Configuration<'a, T, D, N> {
     }
 
     /// Pair k of bodies.
-    fn bodies(&self, k: usize) -> TwoBodies<T, D> {
-        let leg = |j: LegIndex| (self.leg(j.index()), self.height(j.index()));
-        TwoBodies::of(self.robot, &self.robot.pairs[k], self.placement, leg)
-    }
-
-    /// One of the pieces of the margin of pair k of bodies. Their unit is 1.
-    pub fn feature(&self, k: usize, feature: Feature) -> T {
-        self.bodies(k).feature(feature)
-    }
-
-    /// The ends of the bodies of pair k, numbered as [`Feature::End`] is.
-    pub fn ends(&self, k: usize) -> [[T; D]; 4] {
-        let bodies = self.bodies(k);
-        std::array::from_fn(|end| bodies.end(end))
-    }
-
-    /// Positive only where the bodies of pair k are clear of one another: it costs less than their margin.
-    pub fn margin_of_surroundings(&self, k: usize) -> T {
-        self.bodies(k).margin_of_surroundings()
+    pub fn bodies(&self, k: usize) -> TwoBodies<T, D> {
+        let heights: [T; N] = each!(|j| self.height(j));
+        TwoBodies::of(self.robot, &self.robot.pairs[k], self.placement, self.legs, &heights)
     }
 
     /// Returns how far inside a limit it is; only the sign has a meaning. Of singularities, which need more
@@ -91,7 +75,7 @@ impl<'a, T: Scalar, const D: usize, const N: usize> Configuration<'a, T, D, N> {
     }
 
     /// The derivative of margin / unit with respect to s h of leg `of`, on which it depends, at a fixed pose. `value` is what it is of
-    /// functions of the pose: they count as numbers. Of the margin of two bodies [`Self::feature_by_height`] has the pieces.
+    /// functions of the pose: they count as numbers. Of two bodies nothing is said: [`Self::bodies_by_height`] has them.
     pub fn by_height<U: Scalar>(&self, constraint: Constraint, of: usize, value: impl Fn(T) -> U) -> U {
         let still = |f: T| Jet::<U, 1>::fixed(value(f));
         let height = |j: usize| self.varied(j, of, &value);
@@ -111,24 +95,12 @@ impl<'a, T: Scalar, const D: usize, const N: usize> Configuration<'a, T, D, N> {
                 let (two, limit) = (TwoLegs([of(0), of(1)]), &self.robot.rod_angles[k]);
                 (two.margin(limit) / two.unit(limit)).gradient[0]
             }
-            Constraint::Apart(_, k) => self.bodies_by_height(k, of, value).margin().gradient[0],
-            Constraint::Reach(_) | Constraint::Det => U::constant(Interval::ENTIRE),
+            Constraint::Apart(..) | Constraint::Reach(_) | Constraint::Det => U::constant(Interval::ENTIRE),
         }
     }
 
-    /// The like of [`Self::by_height`] for [`Self::feature`].
-    pub fn feature_by_height<U: Scalar>(
-        &self,
-        k: usize,
-        feature: Feature,
-        of: usize,
-        value: impl Fn(T) -> U,
-    ) -> U {
-        self.bodies_by_height(k, of, value).feature(feature).gradient[0]
-    }
-
-    /// Pair k of bodies with s h of leg `of` as the only variable.
-    fn bodies_by_height<U: Scalar>(
+    /// Pair k of bodies with s h of leg `of` as the only variable, as in [`Self::by_height`].
+    pub fn bodies_by_height<U: Scalar>(
         &self,
         k: usize,
         of: usize,
@@ -136,10 +108,8 @@ impl<'a, T: Scalar, const D: usize, const N: usize> Configuration<'a, T, D, N> {
     ) -> TwoBodies<Jet<U, 1>, D> {
         let still = |f: T| Jet::<U, 1>::fixed(value(f));
         let (placement, legs) = (self.placement.map(still), self.legs.each_ref().map(|leg| leg.map(still)));
-        let leg = |j: LegIndex| {
-            (LegAt::of(self.robot.leg(j), &legs[j.index()]), self.varied(j.index(), of, &value))
-        };
-        TwoBodies::of(self.robot, &self.robot.pairs[k], &placement, leg)
+        let heights: [_; N] = each!(|j| self.varied(j, of, &value));
+        TwoBodies::of(self.robot, &self.robot.pairs[k], &placement, &legs, &heights)
     }
 
     /// s h of leg j, a variable if it is leg `of`.

@@ -20,7 +20,7 @@ mod rods;
 mod turn;
 mod window;
 
-pub use bodies::{Beside, Feature, Line};
+pub use bodies::{Beside, Feature, Line, TwoBodies};
 pub use bound::Bound;
 pub(crate) use bound::broken_limits;
 pub(crate) use configuration::within_limits;

@@ -39,37 +39,48 @@ impl Context<'_> {
             let clearance = self.not_negative(&table.value.clearance, "a clearance")?;
             let layer = table.value.layer.as_ref().map(|layer| self.layer(layer)).transpose()?;
             let near = Near { number: k + 1, clearance, layer };
+            let plates: Vec<Capsule> = platform_bodies(robot).collect();
+            let as_body = |radius: Interval, ends: [[Interval; 3]; 2]| {
+                (Capsule { body: Body::Obstacle(near.number), radius, layer, ends: Some(ends) }, clearance)
+            };
             match self.shape(table)? {
                 Shape::Solid(solid) => {
-                    near.keep_platform_clear(robot, &solid, table)?;
+                    match solid {
+                        Solid::Ball { centre, radius } => {
+                            let ball = as_body(radius, [centre; 2]);
+                            self.keep_clear_of_body(robot, ball, &plates, table)?;
+                        }
+                        Solid::Wall { .. } if plates.iter().any(|plate| plate.is_in(layer)) => {
+                            let reason = "bodies of the platform do not keep clear of walls yet: put bars there, `ends` and `radius`";
+                            return Err(out_of_place(&table.span, reason.into()));
+                        }
+                        Solid::Wall { .. } => {}
+                    }
                     near.keep_links_clear(robot, solid, &links, table)?;
                 }
                 Shape::Bar(ends, radius) => {
-                    let mut bodies = links.clone();
-                    bodies.extend(
-                        robot.bodies.iter().filter(|capsule| matches!(capsule.body, Body::Platform(_))),
-                    );
-                    self.keep_clear_of_bar(robot, &near, (ends, radius), bodies, table)?;
+                    let bodies = [&links[..], &plates].concat();
+                    self.keep_clear_of_body(robot, as_body(radius, ends), &bodies, table)?;
                 }
             }
         }
         Ok(())
     }
 
-    /// Adds a bar, and the pairs of it and of these bodies.
-    fn keep_clear_of_bar(
+    /// Adds an obstacle as a body, and the pairs of it and of these; not if none of them can come to it.
+    fn keep_clear_of_body(
         &self,
         robot: &mut Robot,
-        near: &Near,
-        (ends, radius): ([[Interval; 3]; 2], Interval),
-        bodies: Vec<Capsule>,
+        (obstacle, clearance): (Capsule, Interval),
+        bodies: &[Capsule],
         table: &At<ObstacleTable>,
     ) -> Result<(), Fault> {
-        let body = Body::Obstacle(near.number);
-        let bar = Capsule { body, radius, layer: near.layer, ends: Some(ends) };
-        robot.bodies.push(bar);
-        let there = bodies.iter().filter(|capsule| bar.is_in_layer_of(capsule));
-        let pairs: Vec<_> = there.filter_map(|capsule| robot.pair([capsule, &bar], near.clearance)).collect();
+        let there = bodies.iter().filter(|capsule| capsule.is_in(obstacle.layer));
+        let pairs: Vec<_> = there.filter_map(|capsule| robot.pair([capsule, &obstacle], clearance)).collect();
+        if pairs.is_empty() {
+            return Ok(());
+        }
+        robot.bodies.push(obstacle);
         self.check_pairs(&table.span, robot, &pairs)?;
         robot.pairs.extend(pairs);
         if robot.pairs.len() > MOST_PAIRS || robot.bodies.len() > MOST_BODIES {
@@ -132,10 +143,6 @@ struct Near {
 }
 
 impl Near {
-    fn has(&self, capsule: &Capsule) -> bool {
-        self.layer.is_none() || capsule.layer.is_none() || self.layer == capsule.layer
-    }
-
     /// Gives each leg its limits at the obstacle.
     fn keep_links_clear(
         &self,
@@ -159,7 +166,7 @@ impl Near {
                     LinkPart::Elbow => &[Body::Crank(index), Body::Rod(index)],
                     LinkPart::Rod | LinkPart::End => &[Body::Rod(index)],
                 };
-                let there = links.iter().filter(|link| bodies.contains(&link.body) && self.has(link));
+                let there = links.iter().filter(|link| bodies.contains(&link.body) && link.is_in(self.layer));
                 let Some(radius) = there.map(|link| link.radius).max_by(|a, b| a.hi.total_cmp(&b.hi)) else {
                     continue;
                 };
@@ -186,36 +193,12 @@ impl Near {
             (false, true) => Body::Rod(index),
             (false, false) => return false,
         };
-        let link = links.iter().find(|link| link.body == standing && self.has(link));
+        let link = links.iter().find(|link| link.body == standing && link.is_in(self.layer));
         link.is_some_and(|link| !solid.margin_of(&leg.anchor, self.distance_from(link.radius)).is_positive())
     }
+}
 
-    /// Adds the pairs of bodies of the platform and a disc or ball.
-    fn keep_platform_clear(
-        &self,
-        robot: &mut Robot,
-        solid: &Solid,
-        table: &At<ObstacleTable>,
-    ) -> Result<(), Fault> {
-        let bodies = robot.bodies.iter().filter(|capsule| matches!(capsule.body, Body::Platform(_)));
-        let bodies: Vec<Capsule> = bodies.filter(|capsule| self.has(capsule)).copied().collect();
-        match solid {
-            _ if bodies.is_empty() => {}
-            Solid::Ball { centre, radius } => {
-                let (body, layer) = (Body::Obstacle(self.number), self.layer);
-                let ball = Capsule { body, radius: *radius, layer, ends: Some([*centre; 2]) };
-                let pairs: Vec<_> = bodies
-                    .iter()
-                    .filter_map(|capsule| robot.pair([capsule, &ball], self.clearance))
-                    .collect();
-                robot.bodies.push(ball);
-                robot.pairs.extend(pairs);
-            }
-            Solid::Wall { .. } => {
-                let reason = "bodies of the platform do not keep clear of walls yet: put bars there, `ends` and `radius`";
-                return Err(out_of_place(&table.span, reason.into()));
-            }
-        }
-        Ok(())
-    }
+/// The bodies of the platform.
+fn platform_bodies(robot: &Robot) -> impl Iterator<Item = Capsule> {
+    robot.bodies.iter().filter(|capsule| matches!(capsule.body, Body::Platform(_))).copied()
 }

@@ -12,8 +12,7 @@ impl View {
         let style = format!("fill:{SOLID};stroke:{BASE};stroke-width:1");
         match solid {
             Solid::Ball { centre, radius } => {
-                let pixels = radius.mid() * self.chart.width / self.chart.x.span();
-                shapes.circle(self.at(centre.map(|x| x.mid())), pixels, &style);
+                shapes.circle(self.at(centre.map(|x| x.mid())), self.pixels(radius.mid()), &style);
             }
             Solid::Wall { normal, offset } if self.flat => {
                 let [nx, ny, _] = normal.map(|x| x.mid());
@@ -31,7 +30,7 @@ impl View {
     }
 
     /// How many pixels a length has.
-    fn pixels(&self, length: f64) -> f64 {
+    pub fn pixels(&self, length: f64) -> f64 {
         length * self.chart.width / self.chart.x.span()
     }
 }

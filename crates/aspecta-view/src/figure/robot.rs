@@ -175,8 +175,7 @@ impl Drawing<'_> {
         let spherical = self.robot.platform == Platform::TurningBody;
         if spherical {
             let c = self.view.at([0.0; 3]);
-            let r = self.view.chart.width / self.view.chart.x.span();
-            svg.circle(c, r, &format!("fill:#f4f4f4;stroke:{SPHERE};stroke-width:1"));
+            svg.circle(c, self.view.pixels(1.0), &format!("fill:#f4f4f4;stroke:{SPHERE};stroke-width:1"));
         }
         self.solids(svg);
         for leg in &self.skeleton.legs {

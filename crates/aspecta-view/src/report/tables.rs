@@ -38,9 +38,7 @@ pub fn legs(analysis: &Analysis) -> Markup {
         }
         @for limit in &robot.rod_angles { p { "Limit: " (limit.in_words()) "." } }
         @for capsule in &robot.bodies { p { "Body: " (capsule.in_words(&robot.length_unit)) "." } }
-        @if !robot.pairs.is_empty() {
-            p { "Kept apart: " (robot.pairs.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")) "." }
-        }
+        @if !robot.bodies.is_empty() { p { "Kept apart: " (robot.kept_apart()) "." } }
     }
 }
 

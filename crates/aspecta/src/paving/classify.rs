@@ -183,12 +183,9 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
                     let margin = |mode| match constraint {
                         // Most bodies are far apart.
                         Constraint::Apart(_, k) => {
-                            let far = at(mode).margin_of_surroundings(k).tightened();
-                            if far.range.positive() == [true; LANES] {
-                                far
-                            } else {
-                                at(mode).margin(constraint)
-                            }
+                            let bodies = at(mode).bodies(k);
+                            let far = bodies.margin_of_surroundings().tightened();
+                            if far.range.positive() == [true; LANES] { far } else { bodies.margin() }
                         }
                         Constraint::Limit(..)
                         | Constraint::RodAngle(..)

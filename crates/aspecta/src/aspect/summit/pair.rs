@@ -68,10 +68,16 @@ impl<const N: usize, const M: usize> PairPart<N, M> {
         let (placement, legs) = view.plain();
         let heights: [[Slope<Pack, M>; 2]; N] = heights.each_ref().map(|both| both.map(|h| h.value));
         let at = Configuration { robot: view.robot, placement, legs, heights: &heights, mode };
-        let thin = view.robot.pairs[k].is_thin();
-        let ends =
-            if thin { at.ends(k).map(|end| [end[0], end[1]].map(range)) } else { [[Pack::zero(); 2]; 4] };
-        Self { k, constraint, mode, margin: range(at.margin(constraint)), ends, pieces: OnceCell::new() }
+        let bodies = at.bodies(k);
+        let place = |end: usize| {
+            let end = bodies.end(end);
+            [end[0], end[1]].map(range)
+        };
+        let ends = match view.robot.pairs[k].is_thin() {
+            true => std::array::from_fn(place),
+            false => [[Pack::zero(); 2]; 4],
+        };
+        Self { k, constraint, mode, margin: range(bodies.margin()), ends, pieces: OnceCell::new() }
     }
 
     /// The pair with other h.
@@ -98,9 +104,11 @@ impl<const N: usize, const M: usize> PairPart<N, M> {
             let View { robot, placement, legs, .. } = view;
             let at = Configuration { robot, placement, legs, heights: &heights(), mode: self.mode };
             let pair = &robot.pairs[self.k];
+            let bodies = at.bodies(self.k);
+            let legs = (0..N).filter(|&j| self.depends_on(j));
+            let by_height: ArrayVec<_, N> =
+                legs.map(|j| (j, at.bodies_by_height(self.k, j, |f| f.value))).collect();
             let piece = |feature: Feature| {
-                let legs = (0..N).filter(|&j| self.depends_on(j));
-                let by = |j| range(at.feature_by_height(self.k, feature, j, |f| f.value));
                 let (line, turn) = match feature {
                     Feature::Side(line, end) => (Some(line), Turn::of(robot, pair, line, end)),
                     Feature::Distance | Feature::End(_) => (None, None),
@@ -108,8 +116,11 @@ impl<const N: usize, const M: usize> PairPart<N, M> {
                 Piece {
                     line,
                     turn,
-                    field: Field::of(&at.feature(self.k, feature)),
-                    own: legs.map(|j| (j, by(j))).collect(),
+                    field: Field::of(&bodies.feature(feature)),
+                    own: by_height
+                        .iter()
+                        .map(|(j, by)| (*j, range(by.feature(feature).gradient[0])))
+                        .collect(),
                 }
             };
             match pair.is_thin() {
@@ -132,11 +143,7 @@ impl<const N: usize, const M: usize> PairPart<N, M> {
     ) -> Found<M> {
         let scale = Interval::point(view.scale[self.constraint]);
         let by_root = self.constraint.counts_by_root(view.robot);
-        let scaled = |value: Interval| {
-            let share = value / scale;
-            // A root of what is below zero would be zero, or rounded outward a little more.
-            if by_root && share.hi > 0.0 { share.sqrt() } else { share }
-        };
+        let scaled = |value: Interval| in_p(value / scale, by_root);
         let margin = self.margin.lane(lane);
         if margin.is_positive() && scaled(margin).lo > least {
             return Found::Far;
@@ -173,6 +180,11 @@ impl<const N: usize, const M: usize> PairPart<N, M> {
         let joints = [first[0], first[1], second[0], second[1]];
         std::array::from_fn(|end| (joints[end], self.ends[end].map(|x| x.lane(lane))))
     }
+}
+
+/// A function, or its root, as it enters P. A root of what is below zero would be zero, or rounded outward a little more: that stays as it is.
+pub(super) fn in_p(value: Interval, by_root: bool) -> Interval {
+    if by_root && value.hi > 0.0 { value.sqrt() } else { value }
 }
 
 /// The turn that follows from the other body's being beyond an end of this one.

@@ -82,3 +82,79 @@ pub(super) fn implied(end: (Joint, Place), out: Place, other: [(Joint, Place); 2
     let is_beside = after.is_positive() && before.is_positive() && across.sign() != 0;
     is_beside.then(|| Turn::new([x, y, end.0], across.is_negative()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use aspecta_robot::num::Random;
+    use aspecta_robot::{Body, catalogue};
+
+    /// Four joints, of two bodies of a platform.
+    fn joints() -> [Joint; 4] {
+        let robot = catalogue::find("3-rrr").unwrap();
+        let [[a, b], [c, d]] = [1, 2].map(|number| Joint::of(&robot, Body::Platform(number)));
+        [a, b, c, d]
+    }
+
+    fn across([a, b, c]: [[f64; 2]; 3]) -> f64 {
+        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+    }
+
+    fn boxed(point: [f64; 2], radius: f64) -> Place {
+        point.map(|x| Interval::new(x - radius, x + radius))
+    }
+
+    /// Turns that four points have are possible, whatever is known of where they are; and of their sixteen opposites those are told
+    /// that change more than once.
+    #[test]
+    fn what_points_do_is_possible() {
+        let (random, joints) = (&mut Random::new(7), joints());
+        let mut told = 0;
+        for _ in 0..5000 {
+            let flat = 10f64.powf(random.within((-6.0, 0.0)));
+            let points: [[f64; 2]; 4] =
+                std::array::from_fn(|_| [random.within((-1.0, 1.0)), flat * random.within((-1.0, 1.0))]);
+            let radius = 10f64.powf(random.within((-8.0, -1.0)));
+            let places: Vec<(Joint, Place)> = (0..4).map(|k| (joints[k], boxed(points[k], radius))).collect();
+            let triples = [[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]];
+            let turns = |flipped: usize| -> Vec<Turn> {
+                let left = |k: usize| across(triples[k].map(|i| points[i])) > 0.0;
+                (0..4)
+                    .map(|k| Turn::new(triples[k].map(|i| joints[i]), left(k) != (flipped >> k & 1 == 1)))
+                    .collect()
+            };
+            assert!(!are_impossible(&turns(0), &places), "{points:?} {radius}");
+            let found = (1..16).filter(|flipped| are_impossible(&turns(*flipped), &places)).count();
+            // Of sixteen choices eight change at most once.
+            assert!(found == 0 || found == 8, "{found}");
+            told += usize::from(found == 8);
+        }
+        assert!(told > 1000, "{told}");
+        let turn = Turn::new([joints[0], joints[1], joints[2]], true);
+        assert!(are_impossible(&[turn, Turn::new([joints[1], joints[0], joints[2]], true)], &[]));
+        assert!(!are_impossible(&[turn, Turn::new([joints[1], joints[2], joints[0]], true)], &[]));
+    }
+
+    /// Where both ends of a body are beyond the end of another, the turn that is said to follow does.
+    #[test]
+    fn what_is_implied_follows() {
+        let (random, joints) = (&mut Random::new(11), joints());
+        let mut seen = 0;
+        for _ in 0..20_000 {
+            let mut point = || [random.within((-1.0, 1.0)), random.within((-1.0, 1.0))];
+            let [from, end, x, y] = [point(), point(), point(), point()];
+            let out = [0, 1].map(|k| end[k] - from[k]);
+            let beyond = |p: [f64; 2]| (0..2).map(|k| out[k] * (p[k] - end[k])).sum::<f64>() > 0.0;
+            if !(beyond(x) && beyond(y)) {
+                continue;
+            }
+            let at = |joint: usize, p: [f64; 2]| (joints[joint], boxed(p, 0.0));
+            if let Some(turn) = implied(at(1, end), boxed(out, 0.0), [at(2, x), at(3, y)]) {
+                let said = turn.is_left([joints[2], joints[3], joints[1]]).unwrap();
+                assert_eq!(said, across([x, y, end]) > 0.0);
+                seen += 1;
+            }
+        }
+        assert!(seen > 500, "{seen}");
+    }
+}

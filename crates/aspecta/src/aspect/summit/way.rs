@@ -6,7 +6,7 @@ use super::form::{Field, Form};
 use super::frame::Frame;
 use super::leg::LegPart;
 use super::limit::LimitPart;
-use super::pair::{Found, LINES, PairPart, Side};
+use super::pair::{Found, LINES, PairPart, Side, in_p};
 use super::turns::Place;
 use super::view::View;
 use arrayvec::ArrayVec;
@@ -101,7 +101,7 @@ impl<'a, const D: usize, const N: usize, const M: usize> Way<'a, D, N, M> {
                     let along = frame.along(&part.field.gradient_in(lane), &own);
                     let value = part.field.value.lane(lane) / Interval::point(view.scale[part.constraint]);
                     let by_root = part.constraint.counts_by_root(view.robot);
-                    add(if by_root { value.sqrt() } else { value }, along);
+                    add(in_p(value, by_root), along);
                 }
                 Bound::Limit(_) | Bound::Pair(_) => {}
             }
