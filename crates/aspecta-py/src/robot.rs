@@ -211,9 +211,9 @@ impl Robot {
         found.or_partial(py, |analysis| Ok(Analysis::from(analysis.map_err(error::of)?)))
     }
 
-    /// The path that goes straight from pose to pose, or nearly, as [`Analysis::plan`](crate::analysis) returns
+    /// The path from pose to pose that is found without aspects, as [`Analysis::plan`](crate::analysis) returns
     /// it; `None` if it takes more to tell.
-    fn straight(
+    fn plan_without_aspects(
         &self,
         py: Python<'_>,
         ends: [Vec<f64>; 2],
@@ -223,9 +223,9 @@ impl Robot {
         let mode = self.mode(mode)?;
         let Ok(window) = self.robot.slice(&[]) else { return Ok(None) };
         let options = crate::analysis::plan_options(wanted);
-        let straight =
-            || aspecta::Planner::straight(&self.robot, &window, [&ends[0], &ends[1]], mode, &options);
-        let plan = threads::detached(py, straight).map_err(|refusal| error::no_plan(py, &refusal.into()))?;
+        let ends = [&ends[0][..], &ends[1]];
+        let find = || aspecta::Planner::without_aspects(&self.robot, &window, ends, mode, &options);
+        let plan = threads::detached(py, find).map_err(|refusal| error::no_plan(py, &refusal.into()))?;
         plan.map(|plan| crate::analysis::planned(&plan.into())).transpose()
     }
 

@@ -9,8 +9,8 @@ use aspecta::motion::explore::{self, Effort};
 use aspecta::motion::modes::ModeGraph;
 use aspecta::motion::plan::{PlanOptions, Planner};
 use aspecta::paving::{Budget, Control};
-use aspecta::robot::catalogue;
 use aspecta::robot::work::Stopwatch;
+use aspecta::robot::{Robot, catalogue};
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 
@@ -23,8 +23,17 @@ fn share(i: usize, k: usize) -> f64 {
 }
 
 fn plan(c: &mut Criterion) {
-    for (name, mode, depth) in [("five-bar", "+-", 11), ("3-rpr", "---", 7), ("3-rrr", "+++", 7)] {
-        let robot = catalogue::find(name).expect("a robot of the catalogue");
+    let find = |name: &str| catalogue::find(name).expect("a robot of the catalogue");
+    let five_bar = &catalogue::all()[0].text;
+    let disc = format!("{five_bar}\n[[obstacles]]\ncentre = [4.5, 0]\nradius = 1\n");
+    let disc = Robot::from_toml(&disc, "disc.toml").expect("a robot file");
+    let robots = [
+        ("five-bar", find("five-bar"), "+-", 11),
+        ("five-bar round a disc", disc, "+-", 11),
+        ("3-rpr", find("3-rpr"), "---", 7),
+        ("3-rrr", find("3-rrr"), "+++", 7),
+    ];
+    for (name, robot, mode, depth) in robots {
         let mode: WorkingMode = mode.parse().expect("a mode");
         let budget = Budget { depth: Some(depth), ..Budget::default() };
         let control = Control::unwatched();

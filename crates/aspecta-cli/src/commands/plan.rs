@@ -5,7 +5,7 @@ use crate::args::robot::RobotArg;
 use crate::failure::{Answer, Failure};
 use crate::input::{self, Columns};
 use crate::show::motion;
-use crate::work::planning::{plan_over_roadmap, route, straight};
+use crate::work::planning::{plan_over_roadmap, route, without_aspects};
 use aspecta::kinematics::WorkingMode;
 use aspecta::motion::modes::{Configuration, NoRoute};
 use aspecta::motion::plan::PlanOptions;
@@ -67,12 +67,12 @@ impl Plan {
         if let Some(refused) = self.planning.refused(&robot, ends, through, &options)? {
             return motion::print(out, &robot, &refused, &self.planning);
         }
-        // A picture shows the aspect; else a straight way needs none, and of three coordinates aspects take
-        // long.
+        // A picture shows the aspect; else none is needed if a way is found, and of three coordinates aspects
+        // take long.
         if robot.dof() == 3
             && !through
             && self.planning.moving.out.directory().is_none()
-            && let Some(plan) = straight(&robot, [&from, &to], mode, &options)
+            && let Some(plan) = without_aspects(&robot, [&from, &to], mode, &options)
         {
             let planned = self.planning.film(&robot, None, Ok(plan.into()))?;
             return motion::print(out, &robot, &planned, &self.planning);

@@ -65,10 +65,15 @@ impl Analysing {
     }
 }
 
-/// The plan that goes straight, where that is good enough.
-pub fn straight(robot: &Robot, ends: [&[f64]; 2], mode: WorkingMode, options: &PlanOptions) -> Option<Plan> {
+/// The plan that is found without aspects, where that is good enough.
+pub fn without_aspects(
+    robot: &Robot,
+    ends: [&[f64]; 2],
+    mode: WorkingMode,
+    options: &PlanOptions,
+) -> Option<Plan> {
     let window = robot.slice(&[]).ok()?;
-    Planner::straight(robot, &window, ends, mode, options).ok().flatten()
+    Planner::without_aspects(robot, &window, ends, mode, options).ok().flatten()
 }
 
 /// The route between two configurations within their working mode, or through changes of it.

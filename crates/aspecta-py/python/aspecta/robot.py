@@ -194,7 +194,7 @@ class Robot(Kinematics):
     ) -> Plan:
         """Plan a motion between two poses (dof,): see :meth:`Analysis.plan`, which plans again without analysing anew.
 
-        Where three coordinates vary the straight way is tried first. Robots with six coordinates are planned over a roadmap of
+        Where three coordinates vary a straight way, and one round what is in between, are tried first. Robots with six coordinates are planned over a roadmap of
         ``samples`` poses, within a mode; the aspects of others are found in boxes of the given ``depth`` (default: as fine as it
         takes, within reason). All steps together have so many ``seconds``, after which those that can stop do.
         """
@@ -211,9 +211,9 @@ class Robot(Kinematics):
             return Plan(*found, self.pose_names)
         left = TimeLeft(effort[1])
         # With two coordinates the aspects cost nothing to speak of, and the plan tells in which it lies.
-        straight = None if through or self.dof == 2 else self._native.straight(ends, mode, wanted)
-        if straight is not None:
-            return Plan(*straight, self.pose_names)
+        quick = None if through or self.dof == 2 else self._native.plan_without_aspects(ends, mode, wanted)
+        if quick is not None:
+            return Plan(*quick, self.pose_names)
         usual = _native.coarse_depth(self.dof)
         modes = [] if through or self.dof == 2 else [mode]
         # Finer boxes may tell more.
@@ -270,11 +270,11 @@ class Robot(Kinematics):
 
         Without a pose it starts at one far from singularities, without a mode in that farthest from them.
 
-        Warns of limits of passive joints, which the model lacks.
+        Warns of limits that the model lacks: those of passive joints, and contacts of bodies without thickness.
         """
         model, left_out = self._native.mjcf(
             None if pose is None else self._pose("pose", pose), None if mode is None else self._known(mode)
         )
         if left_out:
-            warnings.warn(f"the model lacks the limits of passive joints: {', '.join(left_out)}", stacklevel=2)
+            warnings.warn(f"the model lacks these limits: {', '.join(left_out)}", stacklevel=2)
         return model

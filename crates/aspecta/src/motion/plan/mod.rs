@@ -8,6 +8,7 @@
 //! be joined without a zero; and poses that lie in two aspects of a class ([`Analysis::aspect_at`]) cannot be joined within the class by
 //! Definition 8.
 
+mod around;
 pub(super) mod cost;
 pub(super) mod refusal;
 mod roadmap;
@@ -128,10 +129,10 @@ impl<'a> Planner<'a> {
         refusal::common_sign(robot, window, ends, mode, options.margins)
     }
 
-    /// The path between two poses that goes straight, or nearly, where no aspects need be known: it is proved,
-    /// and on the straight segment the robot is nowhere nearer to singularities than at one of its ends. `None`
-    /// where there is no such path, or nearness to singularities counts so much ([`PlanOptions::weight`] above
-    /// 1) that a detour may be better.
+    /// A path between two poses that is found without aspects, and proved: for robots whose aspects take long. It goes straight, or nearly, if
+    /// on the straight segment the robot is nowhere nearer to singularities than at one of its ends; or round what is in between, if such a
+    /// way is soon found. `None` says nothing: no path may have been found, or nearness to singularities counts so much
+    /// ([`PlanOptions::weight`] above 1) that a way through the whole aspect may be better.
     ///
     /// # Errors
     /// As [`Planner::check_ends`].
@@ -145,12 +146,12 @@ impl<'a> Planner<'a> {
     /// let window = robot.slice(&[])?;
     /// let ends = [&[0.0, 0.0, -900.0][..], &[50.0, 0.0, -900.0]];
     /// let mode = robot.inverse(ends[0])?[0].mode;
-    /// let plan = Planner::straight(&robot, &window, ends, mode, &PlanOptions::default())?;
+    /// let plan = Planner::without_aspects(&robot, &window, ends, mode, &PlanOptions::default())?;
     /// assert!(plan.is_some_and(|plan| plan.aspect.is_none() && plan.waypoints.len() == 2));
     /// # Ok(())
     /// # }
     /// ```
-    pub fn straight(
+    pub fn without_aspects(
         robot: &Robot,
         window: &Window,
         ends: [&[f64]; 2],
@@ -160,7 +161,8 @@ impl<'a> Planner<'a> {
         let det_a = Self::check_ends(robot, window, ends, mode, options)?;
         let search = Search::new(robot, window, mode, det_a, options);
         let ends = ends.map(|pose| -> Pose { padded(&window.turned(pose)) });
-        search.straight(ends).map(|path| search.finish(path, None)).transpose()
+        let path = search.straight(ends).or_else(|| search.around(ends));
+        path.map(|path| search.finish(path, None)).transpose()
     }
 
     /// Returns the analysis that it plans over.

@@ -1,7 +1,7 @@
 //! What a path is looked for by, the straight way, and what becomes of a path that is found.
 
 use super::cost::Cost;
-use super::{FINAL, Plan, PlanOptions, Pose, Proof, Refusal, shorten};
+use super::{FINAL, Plan, PlanOptions, Pose, Proof, Refusal, around, shorten};
 use crate::aspect::{AspectId, DetSign};
 use aspecta_kinematics::WorkingMode;
 use aspecta_kinematics::constraints::Demand;
@@ -53,6 +53,11 @@ impl<'a> Search<'a> {
         // Of a length alone nothing is shorter.
         let is_good = cost.is_length() || (self.weight <= 1.0 && is_clear());
         (is_good && self.proof().holds(&start, &goal)).then(|| vec![start, goal])
+    }
+
+    /// A way round what is in between, if one is soon found and length counts as much as nearness to singularities.
+    pub fn around(&self, ends: [Pose; 2]) -> Option<Vec<Pose>> {
+        if self.weight > 1.0 { None } else { around::path(&self.proof(), &self.cost(), ends) }
     }
 
     /// The plan along a proved path, made cheaper.

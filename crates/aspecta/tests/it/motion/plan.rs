@@ -1,6 +1,7 @@
 //! Within a working mode.
 
 use super::*;
+use crate::obstacles;
 use crate::random::{self, Spread};
 use aspecta::Kinematics;
 use aspecta::kinematics::constraints::Margins;
@@ -9,9 +10,8 @@ use aspecta::motion::{Joined, PathOptions, check_poses};
 use aspecta::robot::{LegIndex, Platform};
 
 /// How many random pairs of poses were planned, proved apart, and left undecided.
-fn pairs(name: &str, depth: u32, signs: &str, count: usize) -> [usize; 3] {
-    let robot = robot(name);
-    let analysis = analysed(&robot, depth, &[signs]);
+fn pairs(robot: &Robot, depth: u32, signs: &str, count: usize) -> [usize; 3] {
+    let analysis = analysed(robot, depth, &[signs]);
     let mode = mode(signs);
     let mut planner = Planner::new(&analysis);
     let mut random = Random(7);
@@ -21,10 +21,10 @@ fn pairs(name: &str, depth: u32, signs: &str, count: usize) -> [usize; 3] {
         match planner.plan(&start, &goal, mode, &PlanOptions::default()) {
             Ok(plan) => {
                 seen[0] += 1;
-                assert_sound(&robot, &plan);
-                assert!(same_pose(&robot, &plan.waypoints[0], &start), "{start:?} {plan:?}");
+                assert_sound(robot, &plan);
+                assert!(same_pose(robot, &plan.waypoints[0], &start), "{start:?} {plan:?}");
                 assert!(
-                    same_pose(&robot, &plan.waypoints[plan.waypoints.len() - 1], &goal),
+                    same_pose(robot, &plan.waypoints[plan.waypoints.len() - 1], &goal),
                     "{goal:?} {plan:?}"
                 );
             }
@@ -67,7 +67,7 @@ fn random_pairs_are_planned_or_proved_apart() {
         ("linear-delta", 6, "+++"),
         ("irb-360", 6, "---"),
     ] {
-        let [planned, apart, undecided] = pairs(name, depth, signs, 60);
+        let [planned, apart, undecided] = pairs(&robot(name), depth, signs, 60);
         println!("{name} {signs}: {planned} planned, {apart} proved apart, {undecided} undecided");
         assert!(planned > 0, "{name} {signs}");
         assert_eq!(undecided, 0, "{name} {signs}");
@@ -78,10 +78,71 @@ fn random_pairs_are_planned_or_proved_apart() {
 #[ignore = "minutes: ten thousand pairs in the aspects of the 3-RRR"]
 fn ten_thousand_pairs_of_the_3_rrr() {
     for signs in ["+++", "++-", "+--", "+-+"] {
-        let [planned, apart, undecided] = pairs("3-rrr", 7, signs, 2500);
+        let [planned, apart, undecided] = pairs(&robot("3-rrr"), 7, signs, 2500);
         println!("{signs}: {planned} planned, {apart} proved apart, {undecided} undecided");
         assert!(undecided * 100 < planned, "{signs}: {undecided} undecided");
     }
+}
+
+/// Round a disc, and with links that keep clear of one another.
+fn cells() -> [Robot; 2] {
+    let links = "[bodies]\nradius = 0.3\n";
+    [obstacles::disc([4.5, 0.0], 1.0), format!("{links}{}", obstacles::disc([3.0, 7.0], 0.4))]
+        .map(|tables| obstacles::with("five-bar", &tables))
+}
+
+#[test]
+fn round_obstacles_pairs_are_planned_or_proved_apart() {
+    for robot in cells() {
+        let [planned, apart, undecided] = pairs(&robot, 10, "+-", 60);
+        println!("{planned} planned, {apart} proved apart, {undecided} undecided");
+        assert!(planned > 0 && undecided < 12);
+    }
+}
+
+#[test]
+#[ignore = "a minute: eight thousand pairs"]
+fn a_thousand_pairs_round_obstacles() {
+    for (k, robot) in cells().iter().enumerate() {
+        for signs in ["++", "+-", "-+", "--"] {
+            let [planned, apart, undecided] = pairs(robot, 11, signs, 1000);
+            println!("{k} {signs}: {planned} planned, {apart} proved apart, {undecided} undecided");
+            assert!(undecided * 100 < planned, "{k} {signs}: {undecided} undecided");
+        }
+    }
+}
+
+/// A tool goes over a bar that the aspects of a Delta need not be known for.
+#[test]
+fn ways_round_are_found_without_aspects() {
+    let tool =
+        "[bodies]\nradius = 15\n[[bodies.platform]]\nends = [[0, 0, -60], [0, 0, -150]]\nradius = 25\n";
+    let bar = "[[obstacles]]\nends = [[0, -600, -1150], [0, 600, -1150]]\nradius = 50\n";
+    let robot = obstacles::with("irb-360", &format!("{tool}{bar}"));
+    let window = robot.slice(&[]).unwrap();
+    let ends = [&[-200.0, 50.0, -1050.0][..], &[250.0, 0.0, -1020.0]];
+    let options = PlanOptions::default();
+    let find = |weight| {
+        Planner::without_aspects(&robot, &window, ends, mode("---"), &PlanOptions { weight, ..options })
+            .unwrap()
+    };
+    let plan = find(1.0).unwrap();
+    assert!(plan.waypoints.len() > 2 && plan.aspect.is_none(), "{plan:?}");
+    assert!((&plan.waypoints[0][..], &plan.waypoints[plan.waypoints.len() - 1][..]) == (ends[0], ends[1]));
+    assert_sound(&robot, &plan);
+    // The tool reaches from 150 to 60 mm below the platform, and must stay 75 mm away from the bar's axis.
+    for pair in plan.waypoints.windows(2) {
+        for t in (0..=50).map(|i| f64::from(i) / 50.0) {
+            let [x, z] = [0, 2].map(|k| pair[0][k] + t * (pair[1][k] - pair[0][k]));
+            let below = (z - 150.0 + 1150.0).max(0.0).max(-1150.0 - (z - 60.0));
+            assert!(x.hypot(below) > 75.0, "{x} {z}");
+        }
+    }
+    assert_eq!(find(8.0), None, "clearance counts: the aspect must tell");
+    assert!(matches!(
+        Planner::without_aspects(&robot, &window, [&[0.0, 0.0, -1100.0], ends[1]], mode("---"), &options),
+        Err(Refusal::BeyondLimit { .. })
+    ));
 }
 
 /// Points 1 and 3 of Table 4.
