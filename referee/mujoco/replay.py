@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Replays a joint path in MuJoCo and compares where the platform goes with where it should go.
+"""Replays a joint path in MuJoCo and compares where the platform goes with where it should go, and whether bodies touch.
 
 The robot starts in the configuration of the first row. From then on nothing but its driven joints is told where to be: the
-platform follows through the closed loops, slowly enough for forces to play no part. Exit status: 0 the platform was where each row says,
-1 it was not, 2 bad input.
+platform follows through the closed loops, slowly enough for forces to play no part. Exit status: 0 the platform was where each row says
+and bodies that are kept apart have not touched, 1 it was not or they have, 2 bad input.
 """
 
 import argparse
@@ -40,7 +40,9 @@ class Trajectory:
         missing = [name for name in wanted if name not in header]
         if missing or not {"t", "time"} & set(times):
             names = ",".join(wanted)
-            raise BadInput(f"{path}: the header is `{','.join(header)}`; wanted are `time` or `segment,t`, and `{names}`")
+            raise BadInput(
+                f"{path}: the header is `{','.join(header)}`; wanted are `time` or `segment,t`, and `{names}`"
+            )
         used = [header.index(name) for name in (*times, *wanted)]
         numbers = np.array([self._numbers(path, rows.line_num, header, used, row) for row in rows if row])
         if len(numbers) < 2:
@@ -105,6 +107,7 @@ class Robot:
         numbers = range(1, len(joints) + 1)
         self.ends = [self.model.site(f"end{k}").id for k in numbers]
         self.attachments = [self.model.site(f"attachment{k}").id for k in numbers]
+        self.touched = set()
 
     def _text(self, name):
         number = mujoco.mj_name2id(self.model, mujoco.mjtObj.mjOBJ_TEXT, name)
@@ -177,12 +180,19 @@ class Robot:
         for k in range(1, steps + 1):
             self.data.ctrl[:] = start + (joints - start) * (k / steps)
             mujoco.mj_step(self.model, self.data)
+            self._feel()
         for _ in range(PATIENCE):
             mujoco.mj_step(self.model, self.data, nstep=SETTLING)
             speed = np.abs(self.data.qvel[self.driven_speeds] / self.unit).max()
             if self.lag(joints) < AT_REST and speed < AT_REST:
                 break
         mujoco.mj_forward(self.model, self.data)
+        self._feel()
+
+    def _feel(self):
+        """Notes which bodies are nearer to one another than the robot allows."""
+        for contact in self.data.contact[: self.data.ncon]:
+            self.touched.add(" and ".join(self.model.geom(geom).name for geom in contact.geom))
 
     def lag(self, joints):
         """How far the worst driven joint is from `joints` (rad, or relative to the robot's size)."""
@@ -222,8 +232,15 @@ def positive(text):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--model", required=True, help="what `aspecta export mjcf` has written")
-    parser.add_argument("--trajectory", required=True, help="CSV: `time` or `segment,t`, the pose, q1, q2, …; angles in rad")
-    parser.add_argument("--tolerance", type=positive, default=1e-3, help="greatest deviation, relative to the robot's size, or rad [1e-3]")
+    parser.add_argument(
+        "--trajectory", required=True, help="CSV: `time` or `segment,t`, the pose, q1, q2, …; angles in rad"
+    )
+    parser.add_argument(
+        "--tolerance",
+        type=positive,
+        default=1e-3,
+        help="greatest deviation, relative to the robot's size, or rad [1e-3]",
+    )
     arguments = parser.parse_args()
     try:
         robot = Robot(arguments.model)
@@ -234,13 +251,16 @@ def main():
         return 2
     worst = int(np.argmax(found[:, 0]))
     kept = bool(np.all(found <= arguments.tolerance))
+    touched = ", ".join(sorted(robot.touched))
     print(f"{Path(arguments.model).name}: {len(found)} rows, {robot.data.time:.1f} s simulated")
     print(f"  platform  {found[worst, 0]:.1e} at most (row {worst + 1}), {found[-1, 0]:.1e} at the end")
     print(f"  loops     {found[:, 1].max():.1e} open at most")
     print(f"  joints    {found[:, 2].max():.1e} off at most")
     verdict = "within" if kept else "BEYOND"
     print(f"  {verdict} the tolerance of {arguments.tolerance:g} (of the robot's size, {robot.length:g}, or rad)")
-    return 0 if kept else 1
+    if robot.model.npair:
+        print(f"  bodies    {touched or f'none of {robot.model.npair} pairs'} in contact")
+    return 0 if kept and not touched else 1
 
 
 if __name__ == "__main__":

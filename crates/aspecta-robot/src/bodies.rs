@@ -4,7 +4,7 @@ use crate::leg_index::as_index;
 use crate::num::{Interval, Scalar, TwoLinks, dot};
 use crate::sound::is_in_space;
 use crate::text::brief;
-use crate::{LegIndex, LegSet, MOST_OBSTACLES, Platform, Robot, is_one_point, sane};
+use crate::{LegIndex, LegSet, MOST_OBSTACLES, Platform, Robot, Solid, is_one_point, sane};
 use serde::{Deserialize, Serialize, Serializer};
 use std::fmt;
 
@@ -56,8 +56,35 @@ pub struct Capsule {
     pub radius: Interval,
     /// Bodies in different layers of a planar machine cannot meet; without one it is in all, as are those in space.
     pub layer: Option<i32>,
-    /// The ends of its axis, of a body of the platform in the platform's frame, of an obstacle in the base; of links they are joints.
-    pub ends: Option<[[Interval; 3]; 2]>,
+    /// Where it is.
+    pub shape: Shape,
+}
+
+/// The shape and place of a body, of one of the platform in the platform's frame, of an obstacle in the base.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Shape {
+    /// A link, from joint to joint.
+    Link,
+    /// All points at most the radius away from the segment between these ends, or from the point that both are.
+    Axis([[Interval; 3]; 2]),
+    /// An obstacle: all that is behind a plane (in the plane a line), n·x ≤ offset.
+    Wall {
+        /// The unit vector n out of it.
+        normal: [Interval; 3],
+        /// The offset.
+        offset: Interval,
+    },
+}
+
+impl Shape {
+    /// The ends of an axis that is given.
+    pub fn ends(&self) -> Option<[[Interval; 3]; 2]> {
+        match self {
+            Self::Axis(ends) => Some(*ends),
+            Self::Link | Self::Wall { .. } => None,
+        }
+    }
 }
 
 /// Two bodies that keep clear of one another: their axes are farther apart than `distance`. If that is 0, which only bodies in the plane
@@ -135,6 +162,7 @@ impl Capsule {
         let layer = self.layer.filter(|layer| *layer != 0);
         let layer = layer.map_or(String::new(), |layer| format!(", layer {layer}"));
         match self.radius.hi {
+            _ if matches!(self.shape, Shape::Wall { .. }) => format!("{}, a wall{layer}", self.body),
             0.0 => format!("{}, thin{layer}", self.body),
             _ => format!("{}, radius {} {unit}{layer}", self.body, brief(self.radius.mid())),
         }
@@ -142,7 +170,13 @@ impl Capsule {
 
     /// Whether a point of the base, or of the platform, may be as near to the axis as `distance`.
     pub(crate) fn is_near(&self, point: &[Interval; 3], distance: Interval) -> bool {
-        let Some([from, to]) = self.ends else { return false };
+        let [from, to] = match self.shape {
+            Shape::Axis(ends) => ends,
+            Shape::Wall { normal, offset } => {
+                return !(dot(&normal, point) - offset - distance).is_positive();
+            }
+            Shape::Link => return false,
+        };
         let links = TwoLinks {
             gap: std::array::from_fn(|k| point[k] - from[k]),
             first: [Interval::point(0.0); 3],
@@ -172,7 +206,8 @@ impl BodyPair {
     fn fits(&self, robot: &Robot) -> bool {
         let [first, second] = self.bodies;
         let is_clear = self.distance.lo > 0.0 || self.is_thin() && robot.platform.space() == 2;
-        let are_long = !self.is_thin() || self.bodies.iter().all(|body| !robot.is_point(*body));
+        let are_long =
+            !self.is_thin() || self.bodies.iter().all(|body| !robot.is_point(*body) && !robot.is_wall(*body));
         let of_one_leg = first.leg().is_some() && first.leg() == second.leg();
         let is_known =
             |body: &Body| body.is_of(robot) && (body.leg().is_some() || robot.capsule(*body).is_some());
@@ -195,17 +230,28 @@ impl Robot {
 
     /// Whether the axis of a body has no length: a disc or a ball.
     pub fn is_point(&self, body: Body) -> bool {
-        self.capsule(body).and_then(|capsule| capsule.ends).is_some_and(|[from, to]| from == to)
+        self.capsule(body).and_then(|capsule| capsule.shape.ends()).is_some_and(|[from, to]| from == to)
+    }
+
+    /// Whether a body is a wall.
+    pub fn is_wall(&self, body: Body) -> bool {
+        self.capsule(body).is_some_and(|capsule| matches!(capsule.shape, Shape::Wall { .. }))
     }
 
     /// Whether the bodies and their pairs make sense.
     pub(crate) fn are_bodies_sound(&self) -> bool {
         let is_sound = |capsule: &Capsule| {
             let fits = |end: &[Interval; 3]| end.iter().all(sane) && is_in_space(end, self.platform.space());
-            let is_placed = match (capsule.body.leg(), &capsule.ends) {
-                (Some(_), None) => true,
-                (None, Some(ends)) => ends.iter().all(fits),
-                (Some(_), Some(_)) | (None, None) => false,
+            let is_placed = match (capsule.body, &capsule.shape) {
+                (Body::Crank(_) | Body::Rod(_), Shape::Link) => true,
+                (Body::Platform(_) | Body::Obstacle(_), Shape::Axis(ends)) => ends.iter().all(fits),
+                (Body::Obstacle(_), Shape::Wall { normal, offset }) => {
+                    let wall = Solid::Wall { normal: *normal, offset: *offset };
+                    wall.is_sound(self.platform.space()) && capsule.radius == Interval::point(0.0)
+                }
+                (Body::Crank(_) | Body::Rod(_), Shape::Axis(_) | Shape::Wall { .. })
+                | (Body::Platform(_), Shape::Link | Shape::Wall { .. })
+                | (Body::Obstacle(_), Shape::Link) => false,
             };
             let is_numbered = match capsule.body {
                 Body::Obstacle(number) => number <= MOST_OBSTACLES,
@@ -220,11 +266,11 @@ impl Robot {
             && self.are_pairs_complete()
     }
 
-    /// Whether all bodies that can meet are kept apart by their radii at least, and none is there twice. Links and discs or balls beside the robot have limits of the legs instead.
+    /// Whether all bodies that can meet are kept apart by their radii at least, and none is there twice. Links and discs, balls or walls beside the robot have limits of the legs instead.
     fn are_pairs_complete(&self) -> bool {
         let zero = Interval::point(0.0);
         let among = |capsule: &Capsule| match capsule.body {
-            Body::Obstacle(_) if self.is_point(capsule.body) => 2,
+            Body::Obstacle(_) if self.is_point(capsule.body) || self.is_wall(capsule.body) => 2,
             Body::Platform(_) => 1,
             Body::Crank(_) | Body::Rod(_) | Body::Obstacle(_) => 0,
         };

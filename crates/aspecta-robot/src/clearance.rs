@@ -2,7 +2,7 @@
 
 use crate::num::{Interval, Scalar, dot};
 use crate::sound::is_in_space;
-use crate::{Leg, Limit, Robot, sane};
+use crate::{Body, Capsule, Leg, Limit, Robot, Shape, sane};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -106,6 +106,20 @@ impl Solid {
         }
     }
 
+    /// Whether it can be in a machine in the plane or in space.
+    pub(crate) fn is_sound(&self, space: usize) -> bool {
+        match self {
+            Self::Ball { centre, radius } => {
+                centre.iter().all(sane) && is_in_space(centre, space) && sane(radius) && radius.lo > 0.0
+            }
+            Self::Wall { normal, offset } => {
+                let length = dot(normal, normal);
+                let is_unit = length.contains(1.0) && length.width() < 1e-6;
+                normal.iter().all(sane) && is_in_space(normal, space) && is_unit && sane(offset)
+            }
+        }
+    }
+
     /// How far a point is from it, or rather a function that is positive just if the point is farther than `distance`.
     pub(crate) fn margin_of(&self, point: &[Interval; 3], distance: Interval) -> Interval {
         match self {
@@ -119,11 +133,26 @@ impl Solid {
 }
 
 impl Robot {
-    /// The obstacles that the legs are kept clear of, by number.
+    /// The discs, balls and walls that the robot is kept clear of, by number.
     pub fn obstacles(&self) -> BTreeMap<usize, Solid> {
         let limits = self.legs.iter().flat_map(|leg| &leg.limits);
         let clearances = limits.filter_map(Limit::as_clearance);
-        clearances.map(|clearance| (clearance.obstacle, clearance.solid)).collect()
+        let of_legs = clearances.map(|clearance| (clearance.obstacle, clearance.solid));
+        of_legs.chain(self.bodies.iter().filter_map(Capsule::as_solid)).collect()
+    }
+}
+
+impl Capsule {
+    /// An obstacle that is a disc, a ball or a wall, with its number.
+    fn as_solid(&self) -> Option<(usize, Solid)> {
+        let Body::Obstacle(number) = self.body else { return None };
+        match self.shape {
+            Shape::Axis([centre, other]) if centre == other => {
+                Some((number, Solid::Ball { centre, radius: self.radius }))
+            }
+            Shape::Wall { normal, offset } => Some((number, Solid::Wall { normal, offset })),
+            Shape::Axis(_) | Shape::Link => None,
+        }
     }
 }
 
@@ -143,20 +172,9 @@ impl Clearance {
 
     /// Whether it can be one of a leg's.
     pub(crate) fn fits(&self, leg: &Leg, space: usize) -> bool {
-        let flat = |v: &[Interval; 3]| is_in_space(v, space);
-        let is_solid = match &self.solid {
-            Solid::Ball { centre, radius } => {
-                centre.iter().all(sane) && flat(centre) && sane(radius) && radius.lo > 0.0
-            }
-            Solid::Wall { normal, offset } => {
-                let length = dot(normal, normal);
-                let is_unit = length.contains(1.0) && length.width() < 1e-6;
-                normal.iter().all(sane) && flat(normal) && is_unit && sane(offset)
-            }
-        };
         let is_known = (1..=MOST_OBSTACLES).contains(&self.obstacle);
         is_known
-            && is_solid
+            && self.solid.is_sound(space)
             && self.solid.parts_of(leg).contains(&self.part)
             && sane(&self.distance)
             && self.distance.lo >= 0.0

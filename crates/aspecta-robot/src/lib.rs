@@ -33,7 +33,7 @@ pub mod work;
 mod working_mode;
 
 pub use crate::legs::{Actuator, Prismatic, Revolute, Spherical, Strut};
-pub use bodies::{Body, BodyPair, Capsule, MOST_BODIES, MOST_PAIRS};
+pub use bodies::{Body, BodyPair, Capsule, MOST_BODIES, MOST_PAIRS, Shape};
 pub use classes::{AXES, ClassSet, MAX_BOXES, MODES};
 pub use clearance::{Clearance, LinkPart, MOST_OBSTACLES, Solid};
 pub(crate) use file::{Fault, LegKeys};

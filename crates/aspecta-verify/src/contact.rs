@@ -14,15 +14,15 @@ use super::place::{Along, Function, OWN, ZERO};
 use super::rods::Shared;
 use super::turns::{Joint, Turn, beside, joints};
 use aspecta_robot::num::{Interval, Jet, Scalar};
-use aspecta_robot::{AXES, Body, BodyPair};
+use aspecta_robot::{AXES, Body, BodyPair, Shape};
 
 /// A function of the axes and of the q of both bodies' legs.
 type Both = Jet<Interval, { AXES + 2 }>;
 
 /// The axis of a body.
-struct Axis<T> {
-    from: [T; 3],
-    along: [T; 3],
+struct Axis<T, const D: usize> {
+    from: [T; D],
+    along: [T; D],
 }
 
 /// A part of the unit square.
@@ -52,27 +52,29 @@ pub(super) struct Line {
 
 /// Cuts of the unit square, each into four.
 const CUTS: usize = 4;
+/// Parts this wide are not cut.
+const NARROW: f64 = 1.0 / 16.0;
 /// How often a part is narrowed.
 const NARROWINGS: usize = 3;
 /// Steps towards the least φ.
 const STEPS: usize = 60;
 
-impl<T: Scalar> Axis<T> {
-    fn end(&self, which: usize) -> [T; 3] {
+impl<T: Scalar, const D: usize> Axis<T, D> {
+    fn end(&self, which: usize) -> [T; D] {
         if which == 0 { self.from } else { std::array::from_fn(|k| self.from[k] + self.along[k]) }
     }
 
-    fn map<U>(&self, to: impl Fn(T) -> U) -> Axis<U> {
+    fn map<U>(&self, to: impl Fn(T) -> U) -> Axis<U, D> {
         Axis { from: self.from.map(&to), along: self.along.map(&to) }
     }
 }
 
-fn product<T: Scalar>(a: &[T; 3], b: &[T; 3]) -> T {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+fn product<T: Scalar, const D: usize>(a: &[T; D], b: &[T; D]) -> T {
+    (1..D).fold(a[0] * b[0], |sum, k| sum + a[k] * b[k])
 }
 
-fn square<T: Scalar>(a: &[T; 3]) -> T {
-    a[0].square() + a[1].square() + a[2].square()
+fn square<T: Scalar, const D: usize>(a: &[T; D]) -> T {
+    a[1..].iter().fold(a[0].square(), |sum, x| sum + x.square())
 }
 
 /// All t in [0, 1] at which a t² − 2 b t is least there.
@@ -90,7 +92,7 @@ fn common(a: Interval, b: Interval) -> Option<Interval> {
 }
 
 /// From a point of the second body to one of the first.
-fn between<T: Scalar>([first, second]: &[Axis<T>; 2], u: T, v: T) -> [T; 3] {
+fn between<T: Scalar, const D: usize>([first, second]: &[Axis<T, D>; 2], u: T, v: T) -> [T; D] {
     std::array::from_fn(|k| (first.from[k] - second.from[k]) + (u * first.along[k] - v * second.along[k]))
 }
 
@@ -124,19 +126,34 @@ impl Part {
         touch(self.u, other.u) && touch(self.v, other.v)
     }
 
-    /// What of these parts φ may be least in, in clusters.
-    fn nearest(axes: &[Axis<Interval>; 2], mut parts: Vec<Self>) -> Vec<Self> {
+    /// What of these parts φ may be least in, in clusters of each.
+    fn nearest<const D: usize>(axes: &[Axis<Interval, D>; 2], parts: &[Self]) -> Vec<Self> {
         let phi = |part: &Self| square(&between(axes, part.u, part.v));
         let at_middle = |part: &Self| {
             let point = |x: Interval| Interval::point(x.mid());
             phi(&Self { u: point(part.u), v: point(part.v) }).hi
         };
-        for _ in 0..CUTS {
-            parts = parts.into_iter().flat_map(Self::halves).collect();
-            let least = parts.iter().map(at_middle).fold(f64::INFINITY, f64::min);
-            parts.retain(|part| phi(part).lo <= least);
-        }
-        Self::clusters(parts).into_iter().filter_map(|part| part.narrowed(axes)).collect()
+        let mut whole: Vec<Self> = parts.iter().filter_map(|part| part.narrowed(axes)).collect();
+        // What φ is at most somewhere, in all configurations.
+        let mut least = whole.iter().map(at_middle).fold(f64::INFINITY, f64::min);
+        whole.retain(|part| phi(part).lo <= least);
+        let pieces = |part: Self| {
+            let mut pieces = vec![part];
+            for _ in 0..CUTS {
+                if pieces.iter().all(Self::is_narrow) {
+                    break;
+                }
+                pieces = pieces.into_iter().flat_map(Self::halves).collect();
+                least = pieces.iter().map(at_middle).fold(least, f64::min);
+                pieces.retain(|part| phi(part).lo <= least);
+            }
+            Self::clusters(pieces)
+        };
+        whole.into_iter().flat_map(pieces).filter_map(|part| part.narrowed(axes)).collect()
+    }
+
+    fn is_narrow(&self) -> bool {
+        self.u.width().max(self.v.width()) <= NARROW
     }
 
     /// Parts that hang together, as one each.
@@ -155,10 +172,10 @@ impl Part {
     }
 
     /// What of the part can be nearest, if anything can. φ is least only where its derivative by u vanishes, or at an end of [0, 1] towards which it falls; and so by v.
-    fn narrowed(mut self, axes: &[Axis<Interval>; 2]) -> Option<Self> {
+    fn narrowed<const D: usize>(mut self, axes: &[Axis<Interval, D>; 2]) -> Option<Self> {
         for _ in 0..NARROWINGS {
             let [first, second] = axes;
-            let gap: [Interval; 3] = std::array::from_fn(|k| first.from[k] - second.from[k]);
+            let gap: [Interval; D] = std::array::from_fn(|k| first.from[k] - second.from[k]);
             let both = product(&first.along, &second.along);
             let u = stationary(square(&first.along), self.v * both - product(&first.along, &gap));
             self.u = common(self.u, u)?;
@@ -169,20 +186,21 @@ impl Part {
     }
 
     /// The least φ in the part.
-    fn least(&self, axes: &[Axis<Interval>; 2]) -> Interval {
+    fn least<const D: usize>(&self, axes: &[Axis<Interval, D>; 2]) -> Interval {
         let numbers = axes.each_ref().map(|axis| axis.map(Interval::mid));
         let [first, second] = numbers.each_ref().map(|axis| square(&axis.along));
-        let ratio = |a: f64, b: f64, range: Interval| {
-            let x = a / b;
+        let within = |x: f64, range: Interval| {
             if x.is_finite() { x.clamp(range.lo, range.hi) } else { range.mid() }
         };
         // Each of the two in turn is made best; whatever is found, a tangent plane there is below φ.
         let (mut u, mut v) = (self.u.mid(), self.v.mid());
         for _ in 0..STEPS {
-            u -= product(&between(&numbers, u, v), &numbers[0].along) / first;
-            u = ratio(u, 1.0, self.u);
-            v += product(&between(&numbers, u, v), &numbers[1].along) / second;
-            v = ratio(v, 1.0, self.v);
+            let before = (u, v);
+            u = within(u - product(&between(&numbers, u, v), &numbers[0].along) / first, self.u);
+            v = within(v + product(&between(&numbers, u, v), &numbers[1].along) / second, self.v);
+            if (u, v) == before {
+                break;
+            }
         }
         let at = between(axes, Interval::point(u), Interval::point(v));
         let two = Interval::point(2.0);
@@ -196,18 +214,17 @@ impl Part {
 impl<const D: usize> InMode<'_, '_, D> {
     /// How far apart two bodies are, where something else is at most `least` (scaled).
     pub(super) fn apart(&self, pair: &BodyPair, scale: f64, least: f64) -> Apart {
+        if let Some(ends) = self.beyond_wall(pair) {
+            return Apart::Least(ends);
+        }
         let values = self.axes(pair, |_, f| f.over.value);
         if is_far(&values, pair, scale, least) {
             return Apart::Far;
         }
         match pair.is_thin() {
             false => {
-                let nearest = |part: Part| Part::nearest(&values, vec![part]);
-                let parts = match D {
-                    2 => Part::edges().into_iter().flat_map(nearest).collect(),
-                    _ => nearest(Part::WHOLE),
-                };
-                Apart::Least(self.least_in(pair, parts))
+                let parts = if D == 2 { &Part::edges()[..] } else { &[Part::WHOLE] };
+                Apart::Least(self.least_in(pair, Part::nearest(&values, parts)))
             }
             true => {
                 let (over, middle) = (self.axes(pair, lifted), self.axes(pair, |_, f| f.at_middle));
@@ -221,20 +238,27 @@ impl<const D: usize> InMode<'_, '_, D> {
                 };
                 let joints: [Joint; 4] = std::array::from_fn(joint);
                 let line = |k: usize| Line { ends: [side(k, 0), side(k, 1)], turns: turns_at(k, &joints) };
-                Apart::Parted((0..8).map(line).collect(), Box::new(joints))
+                Apart::Parted(lines(&values).map(line).collect(), Box::new(joints))
             }
         }
     }
 
     /// How far they are apart: positive if they are clear of one another.
     pub(super) fn clearance_of(&self, pair: &BodyPair) -> Interval {
+        if let Some(ends) = self.beyond_wall(pair) {
+            return least_of(&ends);
+        }
         match self.apart(pair, 1.0, 0.0) {
             Apart::Far => Interval { lo: f64::MIN_POSITIVE, hi: f64::INFINITY },
             Apart::Least(all) => {
                 let least = least_of(&all);
                 // Nearest at an end, if they do not cross.
-                let may_cross = D == 2 && least.hi > 0.0;
-                if may_cross { least.least(self.distance_of(pair)) } else { least }
+                let may_cross = || !are_parted(&self.axes(pair, |_, f| f.over.value));
+                if D == 2 && least.hi > 0.0 && may_cross() {
+                    least.least(self.distance_of(pair))
+                } else {
+                    least
+                }
             }
             Apart::Parted(all, _) => {
                 let lesser = all.iter().map(|line| line.ends[0].range.least(line.ends[1].range));
@@ -243,10 +267,27 @@ impl<const D: usize> InMode<'_, '_, D> {
         }
     }
 
+    /// How far the ends of a body are in front of a wall, less the distance asked for; nothing if none of the two is a wall.
+    fn beyond_wall(&self, pair: &BodyPair) -> Option<Vec<Shared>> {
+        let robot = self.place.setting.robot;
+        let slot = pair.bodies.iter().position(|body| robot.is_wall(*body))?;
+        let Shape::Wall { normal, offset } = robot.capsule(pair.bodies[slot])?.shape else { return None };
+        let (over, middle) = (self.axes(pair, lifted), self.axes(pair, |_, f| f.at_middle));
+        let asked = offset + pair.distance;
+        let beyond = |end: usize| {
+            let (over, middle) = (over[1 - slot].end(end), middle[1 - slot].end(end));
+            let along = |k: usize| over[k] * Both::constant(normal[k]);
+            let total = (1..D).fold(along(0), |sum, k| sum + along(k)) - Both::constant(asked);
+            let at_middle = (0..D).fold(-asked, |sum, k| sum + middle[k] * normal[k]);
+            self.shared(pair, total, at_middle)
+        };
+        Some((0..2).map(beyond).collect())
+    }
+
     /// Their least distance squared, less that asked for, wherever on the bodies that is.
     fn distance_of(&self, pair: &BodyPair) -> Interval {
         let values = self.axes(pair, |_, f| f.over.value);
-        least_of(&self.least_in(pair, Part::nearest(&values, vec![Part::WHOLE])))
+        least_of(&self.least_in(pair, Part::nearest(&values, &[Part::WHOLE])))
     }
 
     /// The least φ in each part, less the square of the distance asked for.
@@ -261,7 +302,7 @@ impl<const D: usize> InMode<'_, '_, D> {
     }
 
     /// The axes of two bodies.
-    fn axes<T: Scalar>(&self, pair: &BodyPair, value: impl Fn(usize, &Point) -> T) -> [Axis<T>; 2] {
+    fn axes<T: Scalar>(&self, pair: &BodyPair, value: impl Fn(usize, &Point) -> T) -> [Axis<T, D>; 2] {
         std::array::from_fn(|slot| {
             let body = pair.bodies[slot];
             let leg = body.leg().map(|j| &*self.legs[j.index()]);
@@ -272,7 +313,7 @@ impl<const D: usize> InMode<'_, '_, D> {
                     self.place.ends(body)
                 }
             };
-            let [from, to] = ends.map(|end| end.map(|f| value(slot, &f)));
+            let [from, to] = ends.map(|end| -> [T; D] { std::array::from_fn(|k| value(slot, &end[k])) });
             Axis { from, along: std::array::from_fn(|k| to[k] - from[k]) }
         })
     }
@@ -316,7 +357,7 @@ fn least_of(all: &[Shared]) -> Interval {
 }
 
 /// Whether the bodies are so far apart that their scaled margin is more than `least`: by the discs or balls round them.
-fn is_far(axes: &[Axis<Interval>; 2], pair: &BodyPair, scale: f64, least: f64) -> bool {
+fn is_far<const D: usize>(axes: &[Axis<Interval, D>; 2], pair: &BodyPair, scale: f64, least: f64) -> bool {
     let half = Interval::point(0.5);
     let reach = axes.iter().fold(pair.distance, |sum, axis| sum + square(&axis.along).sqrt() * half);
     let gap = square(&between(axes, half, half)).sqrt() - reach;
@@ -330,9 +371,9 @@ fn is_far(axes: &[Axis<Interval>; 2], pair: &BodyPair, scale: f64, least: f64) -
 }
 
 /// On which side of a line the end of a body is: lines 0 to 3 are those of the first body, and the end is of the second.
-fn on_side<T: Scalar>(axes: &[Axis<T>; 2], line: usize, end: usize) -> T {
+fn on_side<T: Scalar, const D: usize>(axes: &[Axis<T, D>; 2], line: usize, end: usize) -> T {
     let (own, point) = (&axes[line / 4], axes[1 - line / 4].end(end));
-    let away: [T; 3] = std::array::from_fn(|k| point[k] - own.from[k]);
+    let away: [T; D] = std::array::from_fn(|k| point[k] - own.from[k]);
     let across = own.along[0] * away[1] - own.along[1] * away[0];
     match line % 4 {
         0 => across,
@@ -340,6 +381,23 @@ fn on_side<T: Scalar>(axes: &[Axis<T>; 2], line: usize, end: usize) -> T {
         2 => product(&own.along, &away) - square(&own.along),
         _ => -product(&own.along, &away),
     }
+}
+
+/// How far the other body is on one side of each line.
+fn lesser_sides<const D: usize>(axes: &[Axis<Interval, D>; 2]) -> [Interval; 8] {
+    std::array::from_fn(|line| on_side(axes, line, 0).least(on_side(axes, line, 1)))
+}
+
+/// Whether a line parts the axes of two bodies.
+fn are_parted<const D: usize>(axes: &[Axis<Interval, D>; 2]) -> bool {
+    lesser_sides(axes).iter().any(|side| side.is_positive())
+}
+
+/// The lines that may part two bodies best.
+fn lines<const D: usize>(axes: &[Axis<Interval, D>; 2]) -> impl Iterator<Item = usize> + use<D> {
+    let lesser = lesser_sides(axes);
+    let best = lesser.iter().fold(f64::NEG_INFINITY, |best, line| best.max(line.lo));
+    (0..8).filter(move |line| lesser[*line].hi >= best)
 }
 
 /// The turns that the ends of the other body take on the side of a line; or that one, of an end of the line's body, that follows.

@@ -198,7 +198,7 @@ impl<'a, const D: usize> Place<'a, D> {
 
     /// The ends of a body of the platform or of an obstacle.
     pub(super) fn ends(&self, body: RobotBody) -> [[Point; 3]; 2] {
-        let ends = self.setting.robot.capsule(body).and_then(|capsule| capsule.ends);
+        let ends = self.setting.robot.capsule(body).and_then(|capsule| capsule.shape.ends());
         ends.unwrap_or([[ZERO; 3]; 2]).map(|end| match body {
             RobotBody::Platform(_) => {
                 let (over, at_middle) = (self.over.point(&end), self.at_middle.point(&end));

@@ -85,7 +85,7 @@ impl Mjcf {
         }
         let left_out = mjcf::left_out(&robot);
         if !left_out.is_empty() {
-            note(&format!("the model lacks the limits of passive joints: {}", left_out.join(", ")));
+            note(&format!("the model lacks these limits: {}", left_out.join(", ")));
         }
         Ok(Answer::Yes)
     }

@@ -178,7 +178,79 @@ fn limits_of_passive_joints_are_left_out_and_said_to_be() {
     let output = aspecta("export mjcf").arg(&path).output().unwrap();
     let said = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(0));
-    assert_eq!(said, "the model lacks the limits of passive joints: elbow of leg 1\n");
+    assert_eq!(said, "the model lacks these limits: elbow of leg 1\n");
+}
+
+/// A five-bar with these tables in its file.
+fn cell(tables: &str) -> (TempDir, PathBuf) {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("cell.toml");
+    fs::write(&path, format!("{}\n{tables}", stdout("robots show five-bar"))).unwrap();
+    (directory, path)
+}
+
+/// What keeps clear of one another is what MuJoCo looks at: of links, a column, a bar and a wall each pair that can meet, and nothing else.
+#[test]
+fn bodies_and_obstacles_are_geoms_that_can_touch() {
+    let links = "[bodies]\nradius = 0.3\nclearance = 0.05\n";
+    let column = "[[obstacles]]\ncentre = [3, 7]\nradius = 0.4\nclearance = 0.1\n";
+    let bar = "[[obstacles]]\nends = [[8, 9], [13, 9]]\nradius = 0.2\n";
+    let wall = "[[obstacles]]\nface = [0, -9]\nnormal = [0, 2]\n";
+    let (_directory, path) = cell(&format!("{links}{column}{bar}{wall}"));
+    let output = aspecta("export mjcf --mode +-").arg(&path).output().unwrap();
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "");
+    let text = String::from_utf8(output.stdout).unwrap();
+    let document = Document::parse(&text).unwrap();
+    let geom = |name: &str| named(&document, "geom", name);
+    assert_eq!(numbers(geom("rod1"), "size"), [0.3]);
+    assert_eq!(
+        (numbers(geom("obstacle1"), "pos"), numbers(geom("obstacle1"), "size")),
+        (vec![3.0, 7.0, 0.0], vec![0.4])
+    );
+    assert_eq!(numbers(geom("obstacle2"), "fromto"), [8.0, 9.0, 0.0, 13.0, 9.0, 0.0]);
+    assert_eq!(
+        (numbers(geom("obstacle3"), "pos"), numbers(geom("obstacle3"), "zaxis")),
+        (vec![0.0, -9.0, 0.0], vec![0.0, 1.0, 0.0])
+    );
+    let pairs: Vec<(String, f64)> = document
+        .descendants()
+        .filter(|n| n.has_tag_name("pair"))
+        .map(|n| {
+            let [one, other] = ["geom1", "geom2"].map(|key| n.attribute(key).unwrap());
+            assert!(geom(one) != geom(other));
+            assert_eq!(n.attribute("margin"), n.attribute("gap"), "contacts push only where bodies overlap");
+            (format!("{one} {other}"), numbers(n, "margin")[0])
+        })
+        .collect();
+    let expected = [
+        ("crank1 crank2", 0.05),
+        ("crank1 rod2", 0.05),
+        ("rod1 crank2", 0.05),
+        ("rod1 obstacle2", 0.0),
+        ("rod2 obstacle2", 0.0),
+        ("crank1 obstacle1", 0.1),
+        ("rod1 obstacle1", 0.1),
+        ("rod1 obstacle3", 0.0),
+        ("rod2 obstacle1", 0.1),
+        ("rod2 obstacle3", 0.0),
+    ];
+    assert_eq!(pairs, expected.map(|(names, margin)| (names.to_owned(), margin)));
+}
+
+/// Thin links have no geoms that could touch, and struts that reach far are covered by no two rigid parts.
+#[test]
+fn contacts_that_a_model_cannot_have_are_named() {
+    let said = |robot: &PathBuf| {
+        let output = aspecta("export mjcf").arg(robot).output().unwrap();
+        assert!(!String::from_utf8(output.stdout).unwrap().contains("<contact>"));
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let (_directory, path) = cell("[bodies]\nradius = 0\n[[obstacles]]\ncentre = [4.5, 0]\nradius = 1\n");
+    let thin = said(&path);
+    assert!(thin.starts_with("the model lacks these limits: obstacle 1 at the crank of leg 1, "), "{thin}");
+    assert!(thin.contains("contact of crank of leg 1 and rod of leg 2"), "{thin}");
+    fs::write(&path, format!("{}\n[bodies]\nradius = 0.5\n", stdout("robots show 3-rpr"))).unwrap();
+    assert!(said(&path).contains("contact of rod of leg 1 and rod of leg 2"));
 }
 
 #[test]

@@ -12,8 +12,8 @@ use super::clearance::{Links, from_link};
 use crate::modal::LegClosure;
 use crate::placement::{Placement, out_of_frame};
 use aspecta_robot::legs::sum_of_squares;
-use aspecta_robot::num::{Interval, Scalar, TwoLinks, dot, each};
-use aspecta_robot::{Body, BodyPair, LegIndex, Robot};
+use aspecta_robot::num::{Interval, Scalar, TwoLinks, dot, dot_constant, each};
+use aspecta_robot::{Body, BodyPair, LegIndex, Robot, Shape};
 use std::ops::Range;
 
 /// A part of what keeps two bodies apart, smooth where it counts.
@@ -60,13 +60,23 @@ impl Line {
 impl Feature {
     /// The distances of which the least counts.
     pub fn distances(robot: &Robot, pair: &BodyPair) -> impl Iterator<Item = Self> {
-        let whole = (robot.platform.space() == 3).then_some(Self::Distance);
+        let whole = (robot.platform.space() == 3 && wall_of(robot, pair).is_none()).then_some(Self::Distance);
         whole.into_iter().chain(ends(robot, pair).map(Self::End))
     }
 }
 
-/// In the plane, the ends of two bodies of which the least distance from the other body counts: of a body that is a point, that alone.
+/// Which of two bodies is a wall.
+fn wall_of(robot: &Robot, pair: &BodyPair) -> Option<usize> {
+    pair.bodies.iter().position(|body| robot.is_wall(*body))
+}
+
+/// The ends of two bodies of which the least distance from the other body counts, in the plane, and in space from a wall: of a body that is a point,
+/// that alone.
 fn ends(robot: &Robot, pair: &BodyPair) -> Range<usize> {
+    if let Some(wall) = wall_of(robot, pair) {
+        let first = 2 * (1 - wall);
+        return first..first + if robot.is_point(pair.bodies[1 - wall]) { 1 } else { 2 };
+    }
     match pair.bodies.iter().position(|body| robot.is_point(*body)) {
         _ if robot.platform.space() == 3 || pair.is_thin() => 0..0,
         Some(first) => 2 * first..2 * first + 1,
@@ -101,7 +111,8 @@ impl<T: Scalar, const D: usize> Axis<T, D> {
         };
         let fixed = || {
             let zero = [Interval::point(0.0); 3];
-            let [from, to] = robot.capsule(body).and_then(|capsule| capsule.ends).unwrap_or([zero; 2]);
+            let given = robot.capsule(body).and_then(|capsule| capsule.shape.ends());
+            let [from, to] = given.unwrap_or([zero; 2]);
             let along: [Interval; 3] = std::array::from_fn(|k| to[k] - from[k]);
             (from, along, T::constant(dot(&along, &along)), from == to)
         };
@@ -145,7 +156,9 @@ pub struct TwoBodies<T, const D: usize> {
     axes: [Axis<T, D>; 2],
     distance: Interval,
     is_thin: bool,
-    /// The ends of which the least distance counts, in the plane.
+    /// The unit vector out of the wall and its offset, if one is a wall; then its axis means nothing.
+    wall: Option<([Interval; D], Interval)>,
+    /// The ends of which the least distance counts, in the plane and from a wall.
     ends: Range<usize>,
 }
 
@@ -159,7 +172,11 @@ impl<T: Scalar, const D: usize> TwoBodies<T, D> {
         heights: &[T],
     ) -> Self {
         let axes = pair.bodies.map(|body| Axis::of(robot, body, placement, legs, heights));
-        Self { axes, distance: pair.distance, is_thin: pair.is_thin(), ends: ends(robot, pair) }
+        let wall = wall_of(robot, pair).and_then(|wall| match robot.capsule(pair.bodies[wall])?.shape {
+            Shape::Wall { normal, offset } => Some((each!(|k| normal[k]), offset)),
+            Shape::Link | Shape::Axis(_) => None,
+        });
+        Self { axes, distance: pair.distance, is_thin: pair.is_thin(), wall, ends: ends(robot, pair) }
     }
 
     /// Positive just where they are clear of one another.
@@ -170,6 +187,11 @@ impl<T: Scalar, const D: usize> TwoBodies<T, D> {
             let first = parted(Line { along: 0, side: Beside::Left });
             return Line::all().skip(1).fold(first, |greatest, line| greatest.greatest(parted(line)));
         }
+        if self.wall.is_some() {
+            let end = |end: usize| self.feature(Feature::End(end));
+            let first = end(self.ends.start);
+            return self.ends.clone().skip(1).fold(first, |least, other| least.least(end(other)));
+        }
         // None of the pieces is less, but where links are nearly parallel they are enclosed better.
         self.ends
             .clone()
@@ -179,6 +201,9 @@ impl<T: Scalar, const D: usize> TwoBodies<T, D> {
     /// Positive only where they are clear of one another, as discs or balls round them show: it costs less than [`Self::margin`].
     #[inline(never)]
     pub fn margin_of_surroundings(&self) -> T {
+        if self.wall.is_some() {
+            return self.margin();
+        }
         let [first, second] = &self.axes;
         let half = Interval::point(0.5);
         let between: [T; D] =
@@ -196,6 +221,9 @@ impl<T: Scalar, const D: usize> TwoBodies<T, D> {
     #[inline(never)]
     pub fn feature(&self, feature: Feature) -> T {
         let least = T::constant(self.distance.square());
+        if let (Some((normal, offset)), Feature::End(end)) = (&self.wall, feature) {
+            return dot_constant(normal, &self.end(end)) - T::constant(*offset + self.distance);
+        }
         match feature {
             Feature::Distance => T::least_square(&self.links()) - least,
             Feature::End(end) => {

@@ -89,6 +89,15 @@ impl Constraint {
         }
     }
 
+    /// Whether it is that two bodies, or a link and an obstacle, do not touch.
+    pub fn is_contact(self, robot: &Robot) -> bool {
+        match self {
+            Self::Limit(j, k) => robot.leg(j).limits[k].as_clearance().is_some(),
+            Self::Apart(..) => true,
+            Self::Reach(_) | Self::RodAngle(..) | Self::Det => false,
+        }
+    }
+
     /// The leg that it is about, if it is about one alone.
     pub fn leg(self) -> Option<LegIndex> {
         match self {

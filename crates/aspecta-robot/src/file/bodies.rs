@@ -7,10 +7,10 @@ use super::locate::Fault;
 use super::tables::{CapsuleTable, LinkTable};
 use crate::num::Interval;
 use crate::text::brief;
-use crate::{Body, BodyPair, Capsule, LegIndex, MOST_BODIES, MOST_PAIRS, Platform, Robot};
+use crate::{Body, BodyPair, Capsule, LegIndex, MOST_BODIES, MOST_PAIRS, Platform, Robot, Shape};
 use std::ops::Range as Span;
 
-const ZERO: Interval = Interval::point(0.0);
+pub(super) const ZERO: Interval = Interval::point(0.0);
 
 /// The radius and the layer that a table says a link has, if it does.
 type Said<'a> = [Option<&'a Number>; 2];
@@ -56,6 +56,11 @@ impl Context<'_> {
     /// Some configuration must be allowed; and in space, where two lines hardly ever meet, bodies have some thickness.
     pub fn check_pairs(&self, span: &Span<usize>, robot: &Robot, pairs: &[BodyPair]) -> Result<(), Fault> {
         for pair in pairs {
+            if pair.is_thin() && pair.bodies.iter().any(|body| robot.is_wall(*body)) {
+                let reason =
+                    format!("{pair} have no thickness: give the body a radius, or a clearance above 0");
+                return Err(out_of_place(span, reason));
+            }
             if pair.is_thin() && self.platform.space() == 3 {
                 let reason =
                     format!("{pair} have no thickness: in space, give a radius or a clearance above 0");
@@ -118,7 +123,7 @@ impl Context<'_> {
             if exists {
                 links.push((
                     radius.map(|radius| self.at_least_zero(radius, "a radius")).transpose()?,
-                    Capsule { body, radius: ZERO, layer, ends: None },
+                    Capsule { body, radius: ZERO, layer, shape: Shape::Link },
                 ));
             }
         }
@@ -158,7 +163,7 @@ impl Context<'_> {
         let is_round = ends[0] == ends[1];
         let radius = if is_round { self.length(radius)? } else { self.at_least_zero(radius, "a radius")? };
         let layer = layer.as_ref().map(|layer| self.layer(layer)).transpose()?.or(self.first_layer());
-        Ok(Capsule { body, radius, layer, ends: Some(ends) })
+        Ok(Capsule { body, radius, layer, shape: Shape::Axis(ends) })
     }
 
     /// The two ends of an axis.

@@ -1,6 +1,6 @@
 //! Obstacles of a robot file.
 
-use super::bodies::out_of_place;
+use super::bodies::{ZERO, out_of_place};
 use super::convert::Context;
 use super::error::Problem;
 use super::format::{At, RobotFile, hint};
@@ -10,11 +10,11 @@ use crate::frame::{dot, unit};
 use crate::num::Interval;
 use crate::{
     Body, Capsule, Clearance, Leg, LegIndex, Limit, LinkPart, MOST_BODIES, MOST_OBSTACLES, MOST_PAIRS,
-    Platform, Robot, Solid,
+    Platform, Robot, Shape, Solid,
 };
 
 /// What an obstacle is.
-enum Shape {
+enum Obstacle {
     /// What a limit of each leg looks at.
     Solid(Solid),
     /// A body with two ends.
@@ -40,27 +40,21 @@ impl Context<'_> {
             let layer = table.value.layer.as_ref().map(|layer| self.layer(layer)).transpose()?;
             let near = Near { number: k + 1, clearance, layer };
             let plates: Vec<Capsule> = platform_bodies(robot).collect();
-            let as_body = |radius: Interval, ends: [[Interval; 3]; 2]| {
-                (Capsule { body: Body::Obstacle(near.number), radius, layer, ends: Some(ends) }, clearance)
+            let as_body = |radius: Interval, shape: Shape| {
+                (Capsule { body: Body::Obstacle(near.number), radius, layer, shape }, clearance)
             };
-            match self.shape(table)? {
-                Shape::Solid(solid) => {
-                    match solid {
-                        Solid::Ball { centre, radius } => {
-                            let ball = as_body(radius, [centre; 2]);
-                            self.keep_clear_of_body(robot, ball, &plates, table)?;
-                        }
-                        Solid::Wall { .. } if plates.iter().any(|plate| plate.is_in(layer)) => {
-                            let reason = "bodies of the platform do not keep clear of walls yet: put bars there, `ends` and `radius`";
-                            return Err(out_of_place(&table.span, reason.into()));
-                        }
-                        Solid::Wall { .. } => {}
-                    }
+            match self.obstacle(table)? {
+                Obstacle::Solid(solid) => {
+                    let body = match solid {
+                        Solid::Ball { centre, radius } => as_body(radius, Shape::Axis([centre; 2])),
+                        Solid::Wall { normal, offset } => as_body(ZERO, Shape::Wall { normal, offset }),
+                    };
+                    self.keep_clear_of_body(robot, body, &plates, table)?;
                     near.keep_links_clear(robot, solid, &links, table)?;
                 }
-                Shape::Bar(ends, radius) => {
+                Obstacle::Bar(ends, radius) => {
                     let bodies = [&links[..], &plates].concat();
-                    self.keep_clear_of_body(robot, as_body(radius, ends), &bodies, table)?;
+                    self.keep_clear_of_body(robot, as_body(radius, Shape::Axis(ends)), &bodies, table)?;
                 }
             }
         }
@@ -92,14 +86,14 @@ impl Context<'_> {
         Ok(())
     }
 
-    fn shape(&self, table: &At<ObstacleTable>) -> Result<Shape, Fault> {
+    fn obstacle(&self, table: &At<ObstacleTable>) -> Result<Obstacle, Fault> {
         let missing =
             |key: &str| Fault::new(&table.span, Problem::MissingKey { key: key.into(), hint: hint(key) });
         let ObstacleTable { centre, ends, radius, face, normal, .. } = &table.value;
         match (centre, ends, radius, face, normal) {
             (Some(centre), None, Some(radius), None, None) => {
                 let solid = Solid::Ball { centre: self.vector(centre)?, radius: self.length(radius)? };
-                Ok(Shape::Solid(solid))
+                Ok(Obstacle::Solid(solid))
             }
             (None, Some(ends), radius, None, None) => {
                 let both = self.ends(ends)?;
@@ -107,12 +101,12 @@ impl Context<'_> {
                     let reason = "the ends of a bar are two points; a disc or ball has a `centre`";
                     return Err(out_of_place(&ends.span, reason.into()));
                 }
-                Ok(Shape::Bar(both, self.not_negative(radius, "a radius")?))
+                Ok(Obstacle::Bar(both, self.not_negative(radius, "a radius")?))
             }
             (None, None, None, Some(face), Some(given)) => {
                 let normal =
                     unit(&self.vector(given)?).ok_or(Fault::new(&given.span, Problem::ZeroVector))?;
-                Ok(Shape::Solid(Solid::Wall { normal, offset: dot(&normal, &self.vector(face)?) }))
+                Ok(Obstacle::Solid(Solid::Wall { normal, offset: dot(&normal, &self.vector(face)?) }))
             }
             (Some(_), None, None, None, None) => Err(missing("radius")),
             (None, None, None, Some(_), None) => Err(missing("normal")),

@@ -1,7 +1,7 @@
 //! A leg as pictures, tables and models need it.
 
 use crate::num::{Interval, Scalar, each};
-use crate::{Leg, out_of_frame};
+use crate::{Leg, LinkPart, out_of_frame};
 
 /// The positions of a leg's joints, in base coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,6 +73,8 @@ pub struct Body {
     pub place: [f64; 3],
     /// Its ends, from its origin.
     pub ends: [[f64; 3]; 2],
+    /// The link that it is, or a part of it.
+    pub link: Option<LinkPart>,
     /// How it hangs on the body before it.
     pub joint: Joint,
 }

@@ -5,7 +5,7 @@ use super::drawn::{Body, Dimension, Joint, Part, Points, Role, axis, beyond_anch
 use super::facts::{Facts, ROOTS_OF_A_QUADRATIC};
 use super::{LegKind, Revolute, Spherical};
 use crate::num::{Interval, Scalar};
-use crate::{Fault, Leg, LegKeys};
+use crate::{Fault, Leg, LegKeys, LinkPart};
 use serde::{Deserialize, Serialize};
 
 /// A slider at A + q u, a rod of length M: f = ‖C − A − q u‖² − M².
@@ -168,12 +168,14 @@ impl LegKind for Prismatic {
                 name: "slider",
                 place: b,
                 ends: [[0.0; 3], times(0.1, rod)],
+                link: None,
                 joint: Joint::Driven { axis: axis(leg, 0) },
             },
             Body {
                 name: "rod",
                 place: [0.0; 3],
                 ends: [[0.0; 3], rod],
+                link: Some(LinkPart::Rod),
                 joint: Joint::Passive { name: "elbow" },
             },
         ]

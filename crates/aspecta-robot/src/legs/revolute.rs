@@ -5,7 +5,7 @@ use super::drawn::{Body, Dimension, Joint, Part, Points, Role, axis, beyond_anch
 use super::facts::{Facts, ROOTS_OF_A_QUADRATIC};
 use super::{LegKind, Spherical};
 use crate::num::{Interval, Scalar};
-use crate::{Fault, Leg, LegKeys};
+use crate::{Fault, Leg, LegKeys, LinkPart};
 use serde::{Deserialize, Serialize};
 
 /// A crank of length L turns by q (rad) from u towards v about w, a rod of length M follows:
@@ -209,12 +209,14 @@ impl LegKind for Revolute {
                 name: "crank",
                 place: a,
                 ends: [[0.0; 3], place],
+                link: Some(LinkPart::Crank),
                 joint: Joint::Driven { axis: axis(leg, 2) },
             },
             Body {
                 name: "rod",
                 place,
                 ends: [[0.0; 3], minus(c, b)],
+                link: Some(LinkPart::Rod),
                 joint: Joint::Passive { name: "elbow" },
             },
         ]

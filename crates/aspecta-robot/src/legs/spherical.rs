@@ -189,12 +189,14 @@ impl LegKind for Spherical {
                 name: "proximal",
                 place: [0.0; 3],
                 ends: [a, b],
+                link: None,
                 joint: Joint::Driven { axis: axis(leg, 2) },
             },
             Body {
                 name: "distal",
                 place: [0.0; 3],
                 ends: [b, c],
+                link: None,
                 joint: Joint::Hinge { name: "elbow", axis: b },
             },
         ]

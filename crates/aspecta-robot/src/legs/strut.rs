@@ -5,7 +5,7 @@ use super::drawn::{Body, Dimension, Joint, Part, Points, Role, Size, minus, time
 use super::facts::Facts;
 use super::{LegKind, Revolute, Spherical};
 use crate::num::{Interval, Scalar, dot, each};
-use crate::{BASE_FRAME, Fault, Leg, LegKeys};
+use crate::{BASE_FRAME, Fault, Leg, LegKeys, LinkPart};
 use serde::{Deserialize, Serialize};
 
 /// A leg from A to C of length q > 0: f = ‖C − A‖² − q².
@@ -140,20 +140,24 @@ impl LegKind for Strut {
         Points::ends(leg, span)
     }
 
-    fn bodies(&self, _: &Leg, at: &Points<f64, 3>, q: f64) -> [Body; 2] {
+    /// Both parts are as long as the shortest strut if they cover the longest so, as those that are built are.
+    fn bodies(&self, leg: &Leg, at: &Points<f64, 3>, q: f64) -> [Body; 2] {
         let span = minus(at.c, at.a);
-        let half = times(0.5, span);
+        let shortest = leg.length_range().filter(|(min, max)| max.hi <= 2.0 * min.lo);
+        let part = times(shortest.map_or(0.5, |(min, _)| min.lo / q), span);
         [
             Body {
                 name: "cylinder",
                 place: at.a,
-                ends: [[0.0; 3], half],
+                ends: [[0.0; 3], part],
+                link: Some(LinkPart::Rod),
                 joint: Joint::Passive { name: "base" },
             },
             Body {
                 name: "piston",
                 place: [0.0; 3],
-                ends: [half, span],
+                ends: [minus(span, part), span],
+                link: Some(LinkPart::Rod),
                 joint: Joint::Driven { axis: times(1.0 / q, span) },
             },
         ]

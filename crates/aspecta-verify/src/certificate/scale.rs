@@ -3,7 +3,7 @@
 use super::{Certificate, Unsound};
 use aspecta_robot::constraint::Constraint;
 use aspecta_robot::num::Interval;
-use aspecta_robot::{Actuator, Clearance, Leg, Limit, Prismatic, Revolute, Solid, Strut, Window};
+use aspecta_robot::{Actuator, Clearance, Leg, Limit, Prismatic, Revolute, Shape, Solid, Strut, Window};
 
 /// How many times the greatest magnitude of a function its scale may be. Proofs hold for any scale, but what
 /// is divided by very much is all but zero, and then each leaf takes as long as one can take.
@@ -30,9 +30,13 @@ impl Certificate {
                     let legs = self.robot.legs.iter();
                     let far = legs
                         .map(|leg| span(leg, &self.window) + gradient(leg, &self.window) + norm(&leg.anchor));
-                    let ends = self.robot.bodies.iter().flat_map(|capsule| capsule.ends).flatten();
+                    let ends = self.robot.bodies.iter().flat_map(|capsule| capsule.shape.ends()).flatten();
                     let far = far.sum::<f64>() + ends.map(|end| norm(&end)).sum::<f64>();
-                    (far + self.robot.pairs[k].distance.hi).max(1.0).powi(2)
+                    let offsets = self.robot.bodies.iter().map(|capsule| match capsule.shape {
+                        Shape::Wall { offset, .. } => offset.magnitude(),
+                        Shape::Link | Shape::Axis(_) => 0.0,
+                    });
+                    (far + offsets.sum::<f64>() + self.robot.pairs[k].distance.hi).max(1.0).powi(2)
                 }
             };
             // A function whose magnitudes are none has the scale 1.

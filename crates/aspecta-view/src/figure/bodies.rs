@@ -75,7 +75,7 @@ impl Drawing<'_> {
 
 /// The ends of a body that is no link.
 fn bar(capsule: &Capsule) -> Option<[Point; 2]> {
-    capsule.ends.map(|ends| ends.map(|end| end.map(|x| x.mid())))
+    capsule.shape.ends().map(|ends| ends.map(|end| end.map(|x| x.mid())))
 }
 
 /// A point of the platform in the base.

@@ -8,9 +8,10 @@ use aspecta::kinematics::constraints::Constraint;
 use aspecta::motion::{PathOptions, check_poses};
 use aspecta::num::Interval;
 use aspecta::paving::{Budget, Control};
-use aspecta::robot::{Body, Platform, Robot, catalogue};
+use aspecta::robot::{Body, Clearance, Limit, LinkPart, Platform, Robot, Shape, catalogue};
 use parry3d_f64::math::{Pose, Vector};
-use parry3d_f64::shape::Segment;
+use parry3d_f64::query::distance;
+use parry3d_f64::shape::{HalfSpace, Segment};
 
 const ANCHORS: [[f64; 2]; 2] = [[0.0, 0.0], [9.0, 0.0]];
 
@@ -74,7 +75,7 @@ fn layers_part_bodies() {
 
 #[test]
 fn random_robots_are_exact() {
-    assert!(exact_among(4) >= 3);
+    assert!(exact_among(3) >= 2);
 }
 
 #[test]
@@ -117,7 +118,7 @@ fn slices_of_bodies_are_exact() {
 /// Where a body is, by the joints of its leg or the pose.
 fn ends(robot: &Robot, pose: &[f64], q: &[f64], body: Body) -> [Point; 2] {
     let capsule = robot.capsule(body);
-    let given = || capsule.unwrap().ends.unwrap().map(|end| end.map(|x| x.mid()));
+    let given = || capsule.unwrap().shape.ends().unwrap().map(|end| end.map(|x| x.mid()));
     match body {
         Body::Crank(j) => {
             let [a, b, _] = joints(robot, pose, q, j.index());
@@ -145,9 +146,20 @@ fn least_to_spare(robot: &Robot, pose: &[f64], q: &[f64]) -> f64 {
         Segment::new(from, to)
     };
     let spare = |pair: &aspecta::robot::BodyPair| {
-        let [first, second] = pair.bodies.map(of);
         let here = Pose::identity();
-        parry3d_f64::query::distance(&here, &first, &here, &second).unwrap().distance - pair.distance.mid()
+        let distance = match robot.capsule(pair.bodies[1]).map(|body| body.shape) {
+            Some(Shape::Wall { normal, offset }) => {
+                let [x, y, z] = normal.map(Interval::mid);
+                let (wall, [x, y, z]) =
+                    (HalfSpace::new(Vector::new(x, y, z)), [x, y, z].map(|n| n * offset.mid()));
+                distance(&here, &of(pair.bodies[0]), &Pose::translation(x, y, z), &wall)
+            }
+            Some(Shape::Link | Shape::Axis(_)) | None => {
+                let [first, second] = pair.bodies.map(of);
+                distance(&here, &first, &here, &second)
+            }
+        };
+        distance.unwrap().distance - pair.distance.mid()
     };
     robot.pairs.iter().map(spare).fold(f64::INFINITY, f64::min)
 }
@@ -171,11 +183,16 @@ fn solutions_are_clear(wanted: usize) {
     let strut = "[bodies]\nradius = 0.6\n";
     let rods = "[bodies]\nradius = 20\n[[bodies.platform]]\nends = [[0, 0, 0], [0, 0, -200]]\nradius = 15\n\
                 [[obstacles]]\nends = [[-900, 300, -900], [900, 300, -900]]\nradius = 40\n";
+    let wall = "[[obstacles]]\nface = [0, -14]\nnormal = [0.2, 1]\nclearance = 0.3\n";
+    let table = "[[bodies.platform]]\nends = [[0, 0, 0], [10, 0, -200]]\nradius = 15\n\
+                 [[obstacles]]\nface = [0, 0, -300]\nnormal = [0.1, 0, 1]\n";
     let random = &mut Random(12);
     for (name, tables, size) in [
         ("five-bar", format!("{}{bar}", radius(0.4)), 9.0),
         ("3-rrr", format!("{}{plate}", radius(0.4)), 16.0),
+        ("3-rrr", format!("{plate}{wall}"), 16.0),
         ("3-rpr", format!("{strut}{plate}"), 12.0),
+        ("delta", table.into(), 900.0),
         ("delta", rods.into(), 900.0),
         ("gough-stewart", "[bodies]\nradius = 0.02\n".into(), 0.6),
     ] {
@@ -248,6 +265,34 @@ fn obstacles_meet_what_is_there() {
     let thin = robot("rod = { layer = 7 }", disc);
     assert_eq!(elbow_of(&thin), Some("rod 0 cm from obstacle 1".into()));
     assert_eq!(robot("layer = 1", disc).legs[0].limits.len(), 0);
+}
+
+/// A disc of the platform touches a wall just where its centre is as near as its radius: the aspects of a point that is limited so.
+#[test]
+fn bodies_of_the_platform_stay_in_front_of_walls() {
+    let wall = "[[obstacles]]\nface = [0, -4]\nnormal = [0.3, 1]\n";
+    let robot = with("five-bar", &format!("[[bodies.platform]]\ncentre = [0, 0]\nradius = 1\n{wall}"));
+    let names: Vec<String> = Constraint::of(&robot).map(|constraint| constraint.to_string()).collect();
+    assert!(names.contains(&"contact of body 1 of the platform and obstacle 1".to_owned()), "{names:?}");
+    let mut alone = robot.clone();
+    alone.legs.iter_mut().for_each(|leg| leg.limits.clear());
+    let analysis = analyzed(&alone);
+    assert!(is_accepted(analysis.certificate.as_ref().unwrap()));
+    // The same by the end of a rod, of which the distance is a limit of its leg.
+    let mut by_limit = alone.clone();
+    by_limit.bodies.clear();
+    by_limit.pairs.clear();
+    let end = robot.legs[0]
+        .limits
+        .iter()
+        .find_map(|limit| limit.as_clearance().filter(|c| c.part == LinkPart::End));
+    let end = Clearance { distance: Interval::point(1.0), ..*end.unwrap() };
+    by_limit.legs[0].limits.push(Limit::Clearance(end));
+    let other = analyzed(&by_limit);
+    for (one, other) in analysis.classes.iter().zip(&other.classes) {
+        assert_eq!((one.low, one.high), (other.low, other.high), "{}", one.mode);
+        assert!((one.measure - other.measure).abs() < 1e-9 * one.measure.max(1.0));
+    }
 }
 
 /// A robot that was read from a certificate has all the pairs that its bodies ask for.
@@ -395,8 +440,8 @@ fn in_robot_files() {
         ("spherical-3-rrr", "[bodies]\nradius = 0.1", "turning-body"),
         (
             "3-prr",
-            "[bodies]\nradius = 0.1\n[[bodies.platform]]\ncentre = [0, 0]\nradius = 1\n[[obstacles]]\nface = [0, -3]\nnormal = [0, 1]",
-            "do not keep clear of walls yet",
+            "[[bodies.platform]]\nends = [[0, 0], [1, 0]]\nradius = 0\n[[obstacles]]\nface = [0, -3]\nnormal = [0, 1]",
+            "give the body a radius, or a clearance above 0",
         ),
     ] {
         let text = catalogue::all().iter().find(|entry| entry.name == name).unwrap().text;

@@ -20,9 +20,10 @@ fn between(legs: [usize; 2], min: f64, max: f64) -> RodAngle {
     }
 }
 
-/// The analysis of a robot, the certificate of which holds.
-fn analyzed(robot: &Robot, fix: &[(usize, f64)]) -> Analysis {
-    let options = Options { fix: fix.to_vec(), certificate: true, ..Options::default() };
+/// The analysis of a robot, or of some of its modes (none: all), the certificate of which holds.
+fn analyzed(robot: &Robot, fix: &[(usize, f64)], modes: &[&str]) -> Analysis {
+    let modes = modes.iter().map(|mode| mode.parse().unwrap()).collect();
+    let options = Options { fix: fix.to_vec(), modes, certificate: true, ..Options::default() };
     let analysis = analyze(robot, &options, &Control::unwatched()).unwrap();
     let verdict = verify(analysis.certificate.as_ref().unwrap(), &Control::unwatched());
     assert!(verdict.is_verified(), "{}: {:?}", robot.name, verdict.faults);
@@ -52,7 +53,7 @@ fn five_bar(at: [[f64; 2]; 2], scale: f64) -> Robot {
 /// At P the directions to the two elbows are at most 90° apart, either way: twelve aspects, wherever the robot stands, whatever its unit.
 #[test]
 fn rods_of_the_five_bar_at_most_a_right_angle_apart() {
-    let expected = exact(&analyzed(&five_bar([[0.0, 0.0], [9.0, 0.0]], 1.0), &[]));
+    let expected = exact(&analyzed(&five_bar([[0.0, 0.0], [9.0, 0.0]], 1.0), &[], &[]));
     assert_eq!(expected.iter().sum::<usize>(), 12);
     let moved = counted(&five_bar([[-3.0, 2.0], [2.4, 9.2]], 1.0));
     let scaled = counted(&five_bar([[0.0, 0.0], [0.9, 0.0]], 0.1));
@@ -68,15 +69,25 @@ fn rods_of_the_five_bar_at_most_a_right_angle_apart() {
 /// Limits, in a slice of a body that turns, of two pairs of legs at once, together with others.
 #[test]
 fn rods_of_a_body() {
+    limit_rods_of_a_body(&["+-+", "--+"]);
+}
+
+#[test]
+#[ignore = "half a minute: all modes"]
+fn rods_of_a_body_in_all_modes() {
+    limit_rods_of_a_body(&[]);
+}
+
+fn limit_rods_of_a_body(modes: &[&str]) {
     let mut robot = catalogue::find("3-rrr").unwrap();
     for (leg, rod) in robot.legs.iter_mut().zip([9.0, 8.0, 11.0]) {
         leg.actuator = Leg::revolute([0.0; 2], [0.0; 2], 10.0, rod).actuator;
     }
     robot.rod_angles = vec![between([0, 1], 20.0, 150.0), between([1, 2], 0.0, 120.0)];
-    let limited = analyzed(&robot, &[(2, 0.3)]);
+    let limited = analyzed(&robot, &[(2, 0.3)], modes);
     exact(&limited);
     robot.rod_angles.clear();
-    let free = analyzed(&robot, &[(2, 0.3)]);
+    let free = analyzed(&robot, &[(2, 0.3)], modes);
     let area = |analysis: &Analysis| analysis.classes.iter().map(|class| class.measure).sum::<f64>();
     assert!(area(&limited) < 0.8 * area(&free));
 }

@@ -3,10 +3,11 @@
 //! In the start configuration all bodies of legs are aligned with the base, so positions and axes are written
 //! in its axes.
 
+use super::contact;
 use super::element::Element;
 use crate::figure::skeleton::{LegShape, Point, times};
 use aspecta::legs::{Body, Joint};
-use aspecta::robot::{Clearance, Leg, Limit, Platform};
+use aspecta::robot::{Leg, LegIndex, Limit, LinkPart, Robot};
 
 /// Mass of a link. All forces are inertial, so only ratios of masses matter.
 const LINK: f64 = 0.1;
@@ -22,12 +23,12 @@ const DAMPING: f64 = 1.0;
 pub struct Limb<'a> {
     /// Its number, from 1.
     pub number: usize,
+    pub robot: &'a Robot,
     pub leg: &'a Leg,
     pub shape: &'a LegShape,
     /// Its driven joint.
     pub q: f64,
-    pub platform: Platform,
-    /// Half the thickness of what is drawn.
+    /// Half the thickness of what is drawn and has none of its own.
     pub thickness: f64,
 }
 
@@ -35,7 +36,7 @@ impl Limb<'_> {
     /// Returns its first body, with the other in it; that one has the site `end…`, which belongs at the
     /// platform's `attachment…`.
     pub fn body(&self) -> Element {
-        let [first, last] = self.leg.actuator.bodies(self.leg, self.shape, self.q);
+        let [first, last] = self.bodies();
         self.link(&first).child(self.ended(self.link(&last), last.ends[1]))
     }
 
@@ -54,6 +55,16 @@ impl Limb<'_> {
         servo.numbers("kp", &[stiffness]).numbers("kv", &[2.0 * stiffness / FREQUENCY])
     }
 
+    /// The names of the geoms of a link.
+    pub fn geoms(&self, link: LinkPart) -> Vec<String> {
+        let of_link = self.bodies().into_iter().filter(|body| body.link == Some(link));
+        of_link.map(|body| self.named(body.name)).collect()
+    }
+
+    fn bodies(&self) -> [Body; 2] {
+        self.leg.actuator.bodies(self.leg, self.shape, self.q)
+    }
+
     fn named(&self, name: &str) -> String {
         format!("{name}{}", self.number)
     }
@@ -64,7 +75,13 @@ impl Limb<'_> {
         let middle = times(0.5, [0, 1, 2].map(|k| ends[0][k] + ends[1][k]));
         let inertia = LINK * self.size().powi(2);
         let inertial = Element::new("inertial").vector("pos", middle).numbers("mass", &[LINK]);
-        let shape = Element::new("geom").with("type", "capsule").numbers("size", &[self.thickness]);
+        let own =
+            body.link.and_then(|link| contact::thickness(self.robot, LegIndex::new(self.number - 1), link));
+        let shape = match own {
+            Some(_) => Element::new("geom").with("name", self.named(body.name)),
+            None => Element::new("geom"),
+        };
+        let shape = shape.with("type", "capsule").numbers("size", &[own.unwrap_or(self.thickness)]);
         Element::new("body")
             .with("name", self.named(body.name))
             .vector("pos", body.place)
@@ -95,7 +112,7 @@ impl Limb<'_> {
 
     /// A passive joint at the body's origin: about the plane's normal, or a ball.
     fn passive(&self, name: &str) -> Element {
-        if self.platform.space() == 2 {
+        if self.robot.platform.space() == 2 {
             return self.hinge(name, [0.0, 0.0, 1.0]);
         }
         self.damped(Element::new("joint").with("name", self.named(name)).with("type", "ball"))
@@ -120,16 +137,13 @@ impl Limb<'_> {
     }
 }
 
-/// The limits that the model does not have, as `elbow of leg 1`: those of passive joints.
+/// The limits of passive joints, which the model does not have, as `elbow of leg 1`.
 pub fn left_out(legs: &[Leg]) -> Vec<String> {
     let name = |leg: usize, limit: &Limit| match limit {
-        Limit::ActuatorAngle { .. } | Limit::ActuatorLength { .. } => None,
+        Limit::ActuatorAngle { .. } | Limit::ActuatorLength { .. } | Limit::Clearance(_) => None,
         Limit::Elbow { .. } | Limit::SpatialElbow { .. } => Some(format!("elbow of leg {leg}")),
         Limit::BaseCone { .. } => Some(format!("base-joint of leg {leg}")),
         Limit::PlatformCone { .. } => Some(format!("platform-joint of leg {leg}")),
-        Limit::Clearance(Clearance { obstacle, part, .. }) => {
-            Some(format!("obstacle {obstacle} at the {} of leg {leg}", part.name()))
-        }
     };
     let of = |(k, leg): (usize, &Leg)| -> Vec<String> {
         leg.limits.iter().filter_map(|limit| name(k + 1, limit)).collect()

@@ -1,10 +1,11 @@
 //! MuJoCo's models (MJCF): bodies and joints in trees, closed loops as `connect` constraints.
 //!
-//! Lengths are in the robot's unit, angles in radians. There is neither gravity nor contact, and masses have
+//! Lengths are in the robot's unit, angles in radians. There is no gravity, only what the robot keeps apart can touch, and masses have
 //! no meaning: the model moves as the robot's kinematics do. Joints read what the robot's coordinates are:
 //! `q1`, `q2`, … the driven ones, `x`, `y`, `z` and `phi` those of the platform; an orientation in space is
 //! that of the body `platform`.
 
+mod contact;
 mod element;
 mod leg;
 
@@ -12,31 +13,29 @@ use crate::figure::skeleton::{Point, Skeleton};
 use aspecta::kinematics::Solution;
 use aspecta::num::Interval;
 use aspecta::robot::{Platform, Robot, RodAngle};
+use contact::Contact;
 use element::Element;
 use leg::Limb;
 
 /// The robot as a model that starts in the configuration `start`. Position servos `q1`, `q2`, … drive it; the
-/// keyframe `start` has the inputs that keep it where it is. Ranges of the driven joints are part of it, but
-/// not the limits in [`left_out`].
+/// keyframe `start` has the inputs that keep it where it is. Ranges of the driven joints are part of it, and so are bodies and
+/// obstacles, but not what [`left_out`] names.
 pub fn model(robot: &Robot, start: &Solution) -> String {
     let skeleton = Skeleton::at(robot, &start.pose, &start.q);
     let thickness = 0.01 * skeleton.size;
-    let limb = |(k, leg)| Limb {
-        number: k + 1,
-        leg,
-        shape: &skeleton.legs[k],
-        q: start.q[k],
-        platform: robot.platform,
-        thickness,
-    };
+    let limb =
+        |(k, leg)| Limb { number: k + 1, leg, shape: &skeleton.legs[k], robot, q: start.q[k], thickness };
     let limbs: Vec<Limb<'_>> = robot.legs.iter().enumerate().map(limb).collect();
     let inputs = &start.q;
+    let contacts = Contact::of(robot);
     let bodies = limbs.iter().map(Limb::body).chain([platform(robot, start, &skeleton, thickness)]);
+    let bodies = contact::obstacles(robot).into_iter().chain(bodies);
     let document = Element::new("mujoco")
         .with("model", &robot.name)
-        .children(settings())
+        .children(settings(!contacts.is_empty()))
         .child(facts(robot, start))
         .child(Element::new("worldbody").children(bodies))
+        .children((!contacts.is_empty()).then(|| contact::pairs(&contacts, &limbs)))
         .child(Element::new("equality").children(limbs.iter().map(Limb::closure)))
         .child(Element::new("actuator").children(limbs.iter().map(Limb::servo)))
         .child(
@@ -49,20 +48,27 @@ pub fn model(robot: &Robot, start: &Solution) -> String {
 pub fn left_out(robot: &Robot) -> Vec<String> {
     let of =
         |limit: &RodAngle| format!("angle between the rods of legs {} and {}", limit.legs[0], limit.legs[1]);
-    let contacts = robot.pairs.iter().map(|pair| format!("contact of {pair}"));
-    leg::left_out(&robot.legs).into_iter().chain(robot.rod_angles.iter().map(of)).chain(contacts).collect()
+    let angles = robot.rod_angles.iter().map(of);
+    leg::left_out(&robot.legs).into_iter().chain(angles).chain(contact::left_out(robot)).collect()
 }
 
-/// Constraints are as stiff as time steps of 1 ms allow.
-fn settings() -> [Element; 3] {
+/// Constraints are as stiff as time steps of 1 ms allow. Whatever is drawn passes through what it is not kept apart from.
+fn settings(with_contacts: bool) -> [Element; 3] {
     let option = Element::new("option").numbers("timestep", &[0.001]).vector("gravity", [0.0; 3]);
     let option = option.with("integrator", "implicitfast").with("tolerance", "1e-14");
     let stiff = Element::new("equality").numbers("solref", &[0.002, 1.0]);
     let stiff = stiff.numbers("solimp", &[0.9999, 0.9999, 0.001]);
+    let (option, default) = match with_contacts {
+        true => {
+            let passing = Element::new("geom").with("contype", 0).with("conaffinity", 0);
+            (option, Element::new("default").child(passing))
+        }
+        false => (option.child(Element::new("flag").with("contact", "disable")), Element::new("default")),
+    };
     [
         Element::new("compiler").with("angle", "radian").with("autolimits", "true"),
-        option.child(Element::new("flag").with("contact", "disable")),
-        Element::new("default").child(stiff),
+        option,
+        default.child(stiff),
     ]
 }
 
@@ -92,6 +98,7 @@ fn platform(robot: &Robot, start: &Solution, skeleton: &Skeleton, thickness: f64
         .child(inertial.vector("diaginertia", [length * length; 3]))
         .children(joints(robot.platform, &start.pose, &skeleton.axes))
         .child(ball)
+        .children(contact::plates(robot))
         .children((1..).zip(&robot.legs).flat_map(|(number, leg)| {
             let end = leg.attachment.map(Interval::mid);
             attachment(number, end, thickness)
