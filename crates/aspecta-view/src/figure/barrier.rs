@@ -4,7 +4,7 @@
 //! beyond the reach of the legs, and a contour meets the boundary H = 0 without a gap.
 
 use aspecta::kinematics::WorkingMode;
-use aspecta::kinematics::constraints::Configuration;
+use aspecta::kinematics::constraints::{Configuration, Constraint};
 use aspecta::kinematics::modal::closures;
 use aspecta::kinematics::placement::{Placement, determinant, out_of_frame, wrench};
 use aspecta::robot::{LegIndex, Platform, Robot};
@@ -18,6 +18,13 @@ pub enum Kind {
     Parallel,
     /// A joint limit.
     Limit,
+    /// Two bodies, or a link and an obstacle, touch: which of the robot's [`contacts`].
+    Contact(usize),
+}
+
+/// What can touch, in the order of the numbers in [`Kind::Contact`].
+pub fn contacts(robot: &Robot) -> impl Iterator<Item = Constraint> + '_ {
+    Constraint::of(robot).filter(|constraint| constraint.is_contact(robot))
 }
 
 /// All barriers of a mode at a pose; an aspect is where every `margins` entry is positive and det A keeps its
@@ -26,7 +33,7 @@ pub enum Kind {
 pub struct Barriers {
     /// A positive multiple of det A(X, g_s(X)).
     pub det: f64,
-    /// The reach H_j of each leg (none for struts), then the margin of each joint limit.
+    /// The reach H_j of each leg (none for struts), then the margin of each joint limit and contact.
     pub margins: Vec<(Kind, f64)>,
     /// q = g_s(X), also on the boundary; angles within the ranges of their joints.
     pub q: Vec<f64>,
@@ -70,6 +77,12 @@ fn barriers<const D: usize, const N: usize>(robot: &Robot, mode: WorkingMode, po
         q.push(leg.joint_value(leg.actuator.drive(&at.span, closure, sh)));
     }
     let at = Configuration { robot, placement: &placement, legs: &legs, heights: &heights, mode };
-    margins.extend(at.limits().map(|(_, margin)| (Kind::Limit, margin)));
+    let mut contacts = 0..;
+    let kind = |constraint: Constraint| match constraint.is_contact(robot) {
+        true => contacts.next().map_or(Kind::Limit, Kind::Contact),
+        false => Kind::Limit,
+    };
+    let (limits, values): (Vec<_>, Vec<_>) = at.limits().unzip();
+    margins.extend(limits.into_iter().map(kind).zip(values));
     Barriers { det: determinant(&rows), margins, q, folded }
 }

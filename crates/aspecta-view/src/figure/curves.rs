@@ -41,6 +41,9 @@ pub type Image = (Kind, Vec<Vec<f64>>);
 /// A step between two points of a curve is halved at most so often before it counts as a jump.
 const HALVINGS: u32 = 20;
 
+/// What is below zero by no more than this share of its mean magnitude may be zero on a line.
+const TOUCHING: f64 = 1e-9;
+
 /// Which barrier: det A, or one of [`Barriers::margins`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Which {
@@ -73,9 +76,11 @@ impl Sheet<'_> {
         }
     }
 
-    /// Whether p is within reach and limits, the barrier `except` aside.
-    fn allowed(&self, except: Which, p: [f64; 2]) -> bool {
-        self.barriers(p).margins.iter().enumerate().all(|(k, m)| Which::Margin(k) == except || m.1 >= 0.0)
+    /// Whether p is within reach and limits, the barrier `except` aside. Margins may be below zero by `slack`.
+    fn allowed(&self, except: Which, p: [f64; 2], slack: &[f64]) -> bool {
+        let margins = self.barriers(p).margins;
+        let mut margins = margins.iter().zip(slack).enumerate();
+        margins.all(|(k, (margin, slack))| Which::Margin(k) == except || margin.1 >= -slack)
     }
 
     /// Returns all parts of the curves det A = 0, H_j = 0 and limit = 0 that lie within reach and limits of
@@ -88,11 +93,16 @@ impl Sheet<'_> {
         let Some(first) = nodes.first() else { return Vec::new() };
         let margins = first.margins.iter().enumerate().map(|(k, m)| (m.0, Which::Margin(k)));
         let mut found = Vec::new();
+        let slack: Vec<f64> = (0..first.margins.len()).map(|k| slack(&nodes, k)).collect();
         for (kind, which) in margins.chain([(Kind::Parallel, Which::Det)]) {
             let value = |b: &Barriers| if let Which::Margin(k) = which { b.margins[k].1 } else { b.det };
             let values: Vec<f64> = nodes.iter().map(value).collect();
             for line in contours(grid, &values, |p| self.value(which, p)) {
-                found.extend(self.cut(which, &line).into_iter().map(|points| Curve { kind, points, which }));
+                found.extend(self.cut(which, &line, &slack).into_iter().map(|points| Curve {
+                    kind,
+                    points,
+                    which,
+                }));
             }
         }
         found
@@ -100,13 +110,13 @@ impl Sheet<'_> {
 
     /// The parts of a contour within reach and limits; where it crosses another barrier it ends on that
     /// barrier.
-    fn cut(&self, which: Which, line: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
+    fn cut(&self, which: Which, line: &[[f64; 2]], slack: &[f64]) -> Vec<Vec<[f64; 2]>> {
         let mut parts = Vec::new();
         let mut part: Vec<[f64; 2]> = Vec::new();
-        let allowed: Vec<bool> = line.iter().map(|p| self.allowed(which, *p)).collect();
+        let allowed: Vec<bool> = line.iter().map(|p| self.allowed(which, *p, slack)).collect();
         for k in 0..line.len() {
             if k > 0 && allowed[k] != allowed[k - 1] {
-                part.extend(self.crossing(which, line[k - 1], line[k], allowed[k]));
+                part.extend(self.crossing(which, [line[k - 1], line[k]], allowed[k], slack));
             }
             if allowed[k] {
                 part.push(line[k]);
@@ -120,13 +130,19 @@ impl Sheet<'_> {
     }
 
     /// Returns the point between a and b at which the curve enters (`entering`) or leaves the allowed region.
-    fn crossing(&self, which: Which, a: [f64; 2], b: [f64; 2], entering: bool) -> Option<[f64; 2]> {
+    fn crossing(
+        &self,
+        which: Which,
+        [a, b]: [[f64; 2]; 2],
+        entering: bool,
+        slack: &[f64],
+    ) -> Option<[f64; 2]> {
         let on_curve = |t: f64| project(a, b, t, &|p| self.value(which, p));
         let (mut low, mut high, mut best) = (0.0, 1.0, None);
         for _ in 0..40 {
             let middle = 0.5 * (low + high);
             let p = on_curve(middle)?;
-            let inside = self.allowed(which, p);
+            let inside = self.allowed(which, p, slack);
             if inside {
                 best = Some(p);
             }
@@ -190,6 +206,15 @@ impl Sheet<'_> {
             q[leg.index()] = end;
             q
         })
+    }
+}
+
+/// By how much margin k may be below zero on a line: where the joint of two rods touches something both do, and neither is to hide the other's line.
+fn slack(nodes: &[Barriers], k: usize) -> f64 {
+    let sum: f64 = nodes.iter().map(|node| node.margins[k].1.abs()).sum();
+    match nodes.first().map(|node| node.margins[k].0) {
+        Some(Kind::Contact(_)) => TOUCHING * sum / nodes.len() as f64,
+        Some(Kind::Limit | Kind::Serial | Kind::Parallel) | None => 0.0,
     }
 }
 

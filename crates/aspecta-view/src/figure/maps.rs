@@ -3,6 +3,7 @@
 
 use super::axes::{Axis, Chart};
 use super::barrier::Kind;
+use super::contacts::{Key, name_contacts};
 use super::level::simplify;
 use super::palette::{self, INK, UNDECIDED};
 use super::raster::{Label, Raster};
@@ -31,7 +32,9 @@ const HEADING: f64 = 20.0;
 pub fn figure_9(survey: &Survey<'_>) -> String {
     let modes: Vec<_> = survey.curves.iter().map(|curves| curves.mode).collect();
     let layout = Layout::new(survey, 225.0);
-    let size = layout.size(2 * modes.len());
+    let (width, height) = layout.size(2 * modes.len());
+    let key = Key::of(survey, &modes);
+    let size = (width, height + key.height());
     let spaces = if survey.joint_axes.is_some() { "W-aspects and Q-aspects" } else { "W-aspects" };
     let mut svg = open("figure9", size, &format!("{spaces} of {}", survey.robot.name), survey);
     for (k, &mode) in modes.iter().enumerate() {
@@ -39,19 +42,23 @@ pub fn figure_9(survey: &Survey<'_>) -> String {
             class_panels(&mut svg, survey, mode, sign, &layout.charts(2 * k + c));
         }
     }
-    legend(&mut svg, survey, AspectId::new(1), [LEFT, size.1 - 12.0]);
+    legend(&mut svg, survey, AspectId::new(1), [LEFT, height - 12.0]);
+    key.draw(&mut svg, [LEFT, height + 5.0]);
     svg.finish()
 }
 
 /// Returns one class: its W-aspects beside its Q-aspects.
 pub fn class(survey: &Survey<'_>, mode: WorkingMode, sign: DetSign) -> String {
     let layout = Layout::new(survey, 400.0);
-    let size = layout.size(1);
+    let (width, height) = layout.size(1);
+    let key = Key::of(survey, &[mode]);
+    let size = (width, height + key.height());
     let title = format!("Aspects of mode {} with {}", signs(&mode.to_string()), sign_text(sign));
     let mut svg = open(&class_name(survey, mode, sign), size, &title, survey);
     class_panels(&mut svg, survey, mode, sign, &layout.charts(0));
     let first = survey.of(mode, sign).and_then(|(map, _)| map.class.aspects.first());
-    legend(&mut svg, survey, first.map_or(AspectId::new(1), |a| a.id), [LEFT, size.1 - 12.0]);
+    legend(&mut svg, survey, first.map_or(AspectId::new(1), |a| a.id), [LEFT, height - 12.0]);
+    key.draw(&mut svg, [LEFT, height + 5.0]);
     svg.finish()
 }
 
@@ -142,12 +149,15 @@ fn class_panels(
 
     fill(svg, chart, &map.w, label_colour);
     draw_lines(svg, chart, &curves.w, [false; 2]);
+    name_contacts(svg, chart, &curves.w, [false; 2]);
     number(svg, chart, aspects, |a| survey.axes.map(|k| a.sample.pose[k]));
     chart.frame(svg, &format!("W {name}"));
 
     let (Some(chart), Some(q)) = (q_chart, &map.q) else { return };
     fill(svg, chart, q, label_colour);
-    draw_lines(svg, chart, &curves.q, [chart.x.angle, chart.y.angle]);
+    let turns = [chart.x.angle, chart.y.angle];
+    draw_lines(svg, chart, &curves.q, turns);
+    name_contacts(svg, chart, &curves.q, turns);
     number(svg, chart, aspects, |a| [a.sample.q[0], a.sample.q[1]]);
     chart.frame(svg, &format!("Q {name}"));
 }
@@ -181,9 +191,10 @@ pub(crate) fn fill<T: Copy + Ord, C: Display>(
 /// once for each turn that brings a part of them into the plot.
 pub(crate) fn draw_lines(svg: &mut Svg, chart: &Chart, lines: &Lines, turns: [bool; 2]) {
     chart.clip(svg);
-    for kind in [Kind::Limit, Kind::Serial, Kind::Parallel] {
-        let of_kind = lines.iter().filter(|l| l.0 == kind).map(|l| &l.1);
-        draw_styled(svg, chart, of_kind, turns, line_style(kind));
+    let styles = [Kind::Limit, Kind::Contact(0), Kind::Serial, Kind::Parallel].map(line_style);
+    for style in styles {
+        let of_style = lines.iter().filter(|l| line_style(l.0) == style).map(|l| &l.1);
+        draw_styled(svg, chart, of_style, turns, style);
     }
     svg.close();
 }
@@ -232,6 +243,9 @@ pub(super) fn line_style(kind: Kind) -> &'static str {
         Kind::Serial => "fill:none;stroke:#222;stroke-width:1.2;stroke-dasharray:5 2.5;stroke-linejoin:round",
         Kind::Parallel => "fill:none;stroke:#222;stroke-width:1.4;stroke-linejoin:round",
         Kind::Limit => "fill:none;stroke:#222;stroke-width:1;stroke-dasharray:1.2 2.2;stroke-linejoin:round",
+        Kind::Contact(_) => {
+            "fill:none;stroke:#222;stroke-width:1;stroke-dasharray:5 1.6 1.2 1.6;stroke-linejoin:round"
+        }
     }
 }
 
@@ -255,13 +269,21 @@ pub(super) fn number(svg: &mut Svg, chart: &Chart, aspects: &[Aspect], at: impl 
 
 /// The legend; `shown` is an aspect in the figure.
 fn legend(svg: &mut Svg, survey: &Survey<'_>, shown: AspectId, at: [f64; 2]) {
-    let limits = survey.curves.iter().any(|c| c.w.iter().any(|l| l.0 == Kind::Limit));
     let mut x = swatch(svg, at, palette::aspect(shown), "aspect, numbered at a sample");
     x = swatch(svg, [x, at[1]], UNDECIDED, "undecided cells");
     x = sample_line(svg, [x, at[1]], Kind::Parallel, "det A = 0 (parallel)");
     x = sample_line(svg, [x, at[1]], Kind::Serial, "det B = 0 (serial)");
-    if limits {
-        sample_line(svg, [x, at[1]], Kind::Limit, "joint limit");
+    limit_samples(svg, [x, at[1]], survey.curves.iter().flat_map(|curves| &curves.w).map(|line| line.0));
+}
+
+/// Samples of lines that are no singularities, if there are some.
+pub(crate) fn limit_samples(svg: &mut Svg, at: [f64; 2], kinds: impl Iterator<Item = Kind> + Clone) {
+    let mut x = at[0];
+    if kinds.clone().any(|kind| kind == Kind::Limit) {
+        x = sample_line(svg, [x, at[1]], Kind::Limit, "joint limit");
+    }
+    if kinds.clone().any(|kind| matches!(kind, Kind::Contact(_))) {
+        sample_line(svg, [x, at[1]], Kind::Contact(0), "contact");
     }
 }
 

@@ -7,6 +7,7 @@ pub mod axes;
 pub mod barrier;
 mod bodies;
 pub mod components;
+mod contacts;
 pub mod curves;
 pub mod cut;
 pub(crate) mod film;

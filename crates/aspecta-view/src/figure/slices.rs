@@ -4,7 +4,7 @@ use super::axes::{Axis, Chart};
 use super::barrier::Kind;
 use super::curves::{Plane, Sheet};
 use super::level::Grid;
-use super::maps::{draw_lines, fill, label_colour, sample_line, sign_text, swatch};
+use super::maps::{draw_lines, fill, label_colour, limit_samples, sample_line, sign_text, swatch};
 use super::palette::{self, UNDECIDED};
 use super::raster::{Label, Raster};
 use super::robot::signs;
@@ -49,7 +49,7 @@ pub fn slices(robot: &Robot, window: &Window, sides: [usize; 3], mode: &ModeCell
     let text = signs(&mode.mode.to_string());
     let mut svg =
         Svg::new(&format!("slices-mf{}", mode.number), size.0, size.1, &format!("Slices of mode ({text})"));
-    let mut limits = false;
+    let mut kinds = Vec::new();
     for k in 0..SLICES {
         let at = range.0 + (range.1 - range.0) * (k as f64 + 0.5) / SLICES as f64;
         let chart = panels.chart(k);
@@ -61,12 +61,12 @@ pub fn slices(robot: &Robot, window: &Window, sides: [usize; 3], mode: &ModeCell
         let sheet = Sheet { robot, mode: mode.mode, plane: &plane };
         let grid = Grid { x: axes[0].range, y: axes[1].range, n: GRID };
         let lines: Vec<_> = sheet.curves(&grid).into_iter().map(|c| (c.kind, c.points)).collect();
-        limits |= lines.iter().any(|line| line.0 == Kind::Limit);
+        kinds.extend(lines.iter().map(|line| line.0));
         draw_lines(&mut svg, &chart, &lines, [false; 2]);
         chart.frame(&mut svg, &format!("({text}), {}", place(robot, across, at)));
     }
     aspects(&mut svg, mode, [panels.left, size.1 - 30.0], size.0);
-    legend(&mut svg, limits, [panels.left, size.1 - 12.0]);
+    legend(&mut svg, &kinds, [panels.left, size.1 - 12.0]);
     svg.finish()
 }
 
@@ -154,11 +154,9 @@ fn aspects(svg: &mut Svg, mode: &ModeCells<'_>, [mut x, y]: [f64; 2], width: f64
     }
 }
 
-fn legend(svg: &mut Svg, limits: bool, at: [f64; 2]) {
+fn legend(svg: &mut Svg, kinds: &[Kind], at: [f64; 2]) {
     let x = swatch(svg, at, UNDECIDED, "undecided cells");
     let x = sample_line(svg, [x, at[1]], Kind::Parallel, "det A = 0");
     let x = sample_line(svg, [x, at[1]], Kind::Serial, "det B = 0");
-    if limits {
-        sample_line(svg, [x, at[1]], Kind::Limit, "joint limit");
-    }
+    limit_samples(svg, [x, at[1]], kinds.iter().copied());
 }

@@ -5,7 +5,7 @@ use aspecta::Kinematics;
 use aspecta::aspect::{AspectId, Cell, ClassId, DetSign, ModeReport, Reachable};
 use aspecta::robot::{Robot, catalogue};
 use aspecta_view::figure::axes::Axis;
-use aspecta_view::figure::barrier::{Barriers, Kind};
+use aspecta_view::figure::barrier::{Barriers, Kind, contacts};
 use aspecta_view::figure::curves::{Curve, Plane, Sheet};
 use aspecta_view::figure::level::{Grid, contours, simplify};
 use aspecta_view::figure::raster::{Label, Raster};
@@ -46,6 +46,40 @@ fn contours_keep_branches_apart() {
     for line in lines {
         assert!(line.iter().all(|p| (p[0] > 0.0) == (line[0][0] > 0.0)));
     }
+}
+
+/// Each curve of a contact is told from the others, and lies where that contact is: of two rods that end in one joint, which both touch a wall there,
+/// neither hides the other.
+#[test]
+fn contacts_are_told_apart() {
+    let entry = catalogue::all().iter().find(|entry| entry.name == "five-bar").unwrap();
+    let tables = "[bodies]\nradius = 0.3\n[[obstacles]]\nends = [[8, 9], [13, 9]]\nradius = 0.2\n";
+    let robot = Robot::from_toml(&format!("{}\n{tables}", entry.text), "cell.toml").unwrap();
+    let named: Vec<String> = contacts(&robot).map(|contact| contact.named(&robot)).collect();
+    let find = |name: &str| named.iter().position(|found| found == name).unwrap();
+    let found = curves(&robot, "+-");
+    let on_top = |number: usize| {
+        let of = found.iter().filter(|curve| curve.kind == Kind::Contact(number));
+        of.flat_map(|curve| &curve.points).filter(|p| (p[1] - 8.5).abs() < 1e-9).count()
+    };
+    for rod in ["contact of rod of leg 1 and obstacle 1", "contact of rod of leg 2 and obstacle 1"] {
+        assert!(on_top(find(rod)) > 5, "{rod}: its end touches the bar from below");
+    }
+    // Cranks touch where the distance of their ends says.
+    let cranks = find("contact of crank of leg 1 and crank of leg 2");
+    for curve in found.iter().filter(|curve| curve.kind == Kind::Contact(cranks)) {
+        for p in &curve.points {
+            let margins = Barriers::at(&robot, "+-".parse().unwrap(), p).margins;
+            let margin = margins.iter().find(|margin| margin.0 == curve.kind).unwrap();
+            assert!(margin.1.abs() < 1e-9, "{p:?}");
+        }
+    }
+    let analysis = analysis(&robot, 5);
+    let directory = tempfile::tempdir().unwrap();
+    aspecta_view::report::write(&analysis, directory.path()).unwrap();
+    let figure = std::fs::read_to_string(directory.path().join("figures/aspects-mf2-positive.svg")).unwrap();
+    assert!(figure.contains("contact of crank of leg 1 and rod of leg 2"), "{figure}");
+    assert!(!figure.contains("joint limit"));
 }
 
 /// Serial singularities are the circles |A_iC| = L + M and |L − M|; at parallel ones B1, C and B2 are in line.

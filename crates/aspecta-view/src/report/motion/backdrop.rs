@@ -8,7 +8,7 @@ use crate::figure::axes::{Axis, Chart};
 use crate::figure::barrier::Kind;
 use crate::figure::curves::{Plane, Sheet};
 use crate::figure::level::Grid;
-use crate::figure::maps::{draw_lines, fill, sample_line, sign_text, swatch};
+use crate::figure::maps::{draw_lines, fill, limit_samples, sample_line, sign_text, swatch};
 use crate::figure::palette::{self, UNDECIDED};
 use crate::figure::raster::{Label, Raster};
 use crate::figure::robot::signs;
@@ -169,8 +169,6 @@ impl<'a> Map<'a> {
         x = sample_line(svg, [x, y], Kind::Parallel, "det A = 0");
         sample_line(svg, [x, y], Kind::Serial, "det B = 0");
         // In a row of its own: all samples in one are wider than the picture may be.
-        if lines.iter().any(|line| line.0 == Kind::Limit) {
-            sample_line(svg, [left, y + 17.0], Kind::Limit, "joint limit");
-        }
+        limit_samples(svg, [left, y + 17.0], lines.iter().map(|line| line.0));
     }
 }
