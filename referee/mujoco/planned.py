@@ -64,8 +64,9 @@ def main():
                 print(f"error: motion {moved + 1}: {error}", file=sys.stderr)
                 return 2
             moved, rows = moved + 1, rows + len(found)
-            if not robot.model.npair or (found > TOLERANCE).any() or robot.touched:
-                touching = ", ".join(sorted(robot.touched)) or "nothing"
+            touched = robot.touching(TOLERANCE)
+            if not robot.model.npair or (found > TOLERANCE).any() or touched:
+                touching = ", ".join(touched) or "nothing"
                 print(f"motion {moved}, {mode} {ends}: {found.max():.1e} off, {touching} in contact", file=sys.stderr)
                 return 1
     print(

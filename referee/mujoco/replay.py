@@ -107,7 +107,9 @@ class Robot:
         numbers = range(1, len(joints) + 1)
         self.ends = [self.model.site(f"end{k}").id for k in numbers]
         self.attachments = [self.model.site(f"attachment{k}").id for k in numbers]
-        self.touched = set()
+        pairs = zip(self.model.pair_geom1, self.model.pair_geom2, self.model.pair_margin, strict=True)
+        self.clearances = {frozenset((int(one), int(other))): margin for one, other, margin in pairs}
+        self.spare = {}
 
     def _text(self, name):
         number = mujoco.mj_name2id(self.model, mujoco.mjtObj.mjOBJ_TEXT, name)
@@ -190,9 +192,15 @@ class Robot:
         self._feel()
 
     def _feel(self):
-        """Notes which bodies are nearer to one another than the robot allows."""
+        """Notes by how much bodies are nearer to one another than the robot allows."""
         for contact in self.data.contact[: self.data.ncon]:
-            self.touched.add(" and ".join(self.model.geom(geom).name for geom in contact.geom))
+            names = " and ".join(self.model.geom(geom).name for geom in contact.geom)
+            spare = contact.dist - self.clearances[frozenset(int(geom) for geom in contact.geom)]
+            self.spare[names] = min(spare, self.spare.get(names, 0.0))
+
+    def touching(self, tolerance):
+        """The bodies that have been nearer than allowed by more than a share of the robot's size."""
+        return sorted(names for names, spare in self.spare.items() if spare < -tolerance * self.length)
 
     def lag(self, joints):
         """How far the worst driven joint is from `joints` (rad, or relative to the robot's size)."""
@@ -251,7 +259,7 @@ def main():
         return 2
     worst = int(np.argmax(found[:, 0]))
     kept = bool(np.all(found <= arguments.tolerance))
-    touched = ", ".join(sorted(robot.touched))
+    touched = ", ".join(robot.touching(arguments.tolerance))
     print(f"{Path(arguments.model).name}: {len(found)} rows, {robot.data.time:.1f} s simulated")
     print(f"  platform  {found[worst, 0]:.1e} at most (row {worst + 1}), {found[-1, 0]:.1e} at the end")
     print(f"  loops     {found[:, 1].max():.1e} open at most")

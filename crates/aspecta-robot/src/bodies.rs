@@ -4,7 +4,7 @@ use crate::leg_index::as_index;
 use crate::num::{Interval, Scalar, TwoLinks, dot};
 use crate::sound::is_in_space;
 use crate::text::brief;
-use crate::{LegIndex, LegSet, MOST_OBSTACLES, Platform, Robot, Solid, is_one_point, sane};
+use crate::{LegIndex, LegSet, MOST_OBSTACLES, Platform, Robot, Shape, Solid, is_one_point, sane};
 use serde::{Deserialize, Serialize, Serializer};
 use std::fmt;
 
@@ -58,33 +58,6 @@ pub struct Capsule {
     pub layer: Option<i32>,
     /// Where it is.
     pub shape: Shape,
-}
-
-/// The shape and place of a body, of one of the platform in the platform's frame, of an obstacle in the base.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Shape {
-    /// A link, from joint to joint.
-    Link,
-    /// All points at most the radius away from the segment between these ends, or from the point that both are.
-    Axis([[Interval; 3]; 2]),
-    /// An obstacle: all that is behind a plane (in the plane a line), n·x ≤ offset.
-    Wall {
-        /// The unit vector n out of it.
-        normal: [Interval; 3],
-        /// The offset.
-        offset: Interval,
-    },
-}
-
-impl Shape {
-    /// The ends of an axis that is given.
-    pub fn ends(&self) -> Option<[[Interval; 3]; 2]> {
-        match self {
-            Self::Axis(ends) => Some(*ends),
-            Self::Link | Self::Wall { .. } => None,
-        }
-    }
 }
 
 /// Two bodies that keep clear of one another: their axes are farther apart than `distance`. If that is 0, which only bodies in the plane

@@ -2,7 +2,7 @@
 
 use crate::num::{Interval, Scalar, dot};
 use crate::sound::is_in_space;
-use crate::{Body, Capsule, Leg, Limit, Robot, Shape, sane};
+use crate::{Capsule, Leg, Limit, Robot, sane};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -139,20 +139,6 @@ impl Robot {
         let clearances = limits.filter_map(Limit::as_clearance);
         let of_legs = clearances.map(|clearance| (clearance.obstacle, clearance.solid));
         of_legs.chain(self.bodies.iter().filter_map(Capsule::as_solid)).collect()
-    }
-}
-
-impl Capsule {
-    /// An obstacle that is a disc, a ball or a wall, with its number.
-    fn as_solid(&self) -> Option<(usize, Solid)> {
-        let Body::Obstacle(number) = self.body else { return None };
-        match self.shape {
-            Shape::Axis([centre, other]) if centre == other => {
-                Some((number, Solid::Ball { centre, radius: self.radius }))
-            }
-            Shape::Wall { normal, offset } => Some((number, Solid::Wall { normal, offset })),
-            Shape::Axis(_) | Shape::Link => None,
-        }
     }
 }
 

@@ -14,13 +14,13 @@ use super::place::{Along, Function, OWN, ZERO};
 use super::rods::Shared;
 use super::turns::{Joint, Turn, beside, joints};
 use aspecta_robot::num::{Interval, Jet, Scalar};
-use aspecta_robot::{AXES, Body, BodyPair, Shape};
+use aspecta_robot::{AXES, Body, BodyPair};
 
 /// A function of the axes and of the q of both bodies' legs.
-type Both = Jet<Interval, { AXES + 2 }>;
+pub(super) type Both = Jet<Interval, { AXES + 2 }>;
 
 /// The axis of a body.
-struct Axis<T, const D: usize> {
+pub(super) struct Axis<T, const D: usize> {
     from: [T; D],
     along: [T; D],
 }
@@ -60,7 +60,7 @@ const NARROWINGS: usize = 3;
 const STEPS: usize = 60;
 
 impl<T: Scalar, const D: usize> Axis<T, D> {
-    fn end(&self, which: usize) -> [T; D] {
+    pub fn end(&self, which: usize) -> [T; D] {
         if which == 0 { self.from } else { std::array::from_fn(|k| self.from[k] + self.along[k]) }
     }
 
@@ -267,23 +267,6 @@ impl<const D: usize> InMode<'_, '_, D> {
         }
     }
 
-    /// How far the ends of a body are in front of a wall, less the distance asked for; nothing if none of the two is a wall.
-    fn beyond_wall(&self, pair: &BodyPair) -> Option<Vec<Shared>> {
-        let robot = self.place.setting.robot;
-        let slot = pair.bodies.iter().position(|body| robot.is_wall(*body))?;
-        let Shape::Wall { normal, offset } = robot.capsule(pair.bodies[slot])?.shape else { return None };
-        let (over, middle) = (self.axes(pair, lifted), self.axes(pair, |_, f| f.at_middle));
-        let asked = offset + pair.distance;
-        let beyond = |end: usize| {
-            let (over, middle) = (over[1 - slot].end(end), middle[1 - slot].end(end));
-            let along = |k: usize| over[k] * Both::constant(normal[k]);
-            let total = (1..D).fold(along(0), |sum, k| sum + along(k)) - Both::constant(asked);
-            let at_middle = (0..D).fold(-asked, |sum, k| sum + middle[k] * normal[k]);
-            self.shared(pair, total, at_middle)
-        };
-        Some((0..2).map(beyond).collect())
-    }
-
     /// Their least distance squared, less that asked for, wherever on the bodies that is.
     fn distance_of(&self, pair: &BodyPair) -> Interval {
         let values = self.axes(pair, |_, f| f.over.value);
@@ -302,7 +285,11 @@ impl<const D: usize> InMode<'_, '_, D> {
     }
 
     /// The axes of two bodies.
-    fn axes<T: Scalar>(&self, pair: &BodyPair, value: impl Fn(usize, &Point) -> T) -> [Axis<T, D>; 2] {
+    pub(super) fn axes<T: Scalar>(
+        &self,
+        pair: &BodyPair,
+        value: impl Fn(usize, &Point) -> T,
+    ) -> [Axis<T, D>; 2] {
         std::array::from_fn(|slot| {
             let body = pair.bodies[slot];
             let leg = body.leg().map(|j| &*self.legs[j.index()]);
@@ -319,7 +306,7 @@ impl<const D: usize> InMode<'_, '_, D> {
     }
 
     /// A function of both legs, and what it is where the axes and the q's of the legs are at their middle.
-    fn shared(&self, pair: &BodyPair, f: Both, at_middle: Interval) -> Shared {
+    pub(super) fn shared(&self, pair: &BodyPair, f: Both, at_middle: Interval) -> Shared {
         let legs = pair.bodies.map(|body| body.leg().map(|j| (j.index(), &*self.legs[j.index()])));
         let (mut by_joint, mut middle) = ([ZERO; MOST], at_middle);
         let mut total: [Interval; AXES] = std::array::from_fn(|a| f.gradient[a]);
@@ -344,7 +331,7 @@ pub(super) struct Point {
 }
 
 /// A function of one leg as one of both, that of the first or the second body. What is of no leg has no derivative by its q.
-fn lifted(slot: usize, f: &Point) -> Both {
+pub(super) fn lifted(slot: usize, f: &Point) -> Both {
     let mut gradient = [ZERO; AXES + 2];
     gradient[..AXES].copy_from_slice(&f.over.gradient[..AXES]);
     gradient[AXES + slot] = f.over.gradient[OWN];

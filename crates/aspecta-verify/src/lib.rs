@@ -66,6 +66,7 @@ mod text;
 mod turns;
 mod twins;
 mod verdict;
+mod wall;
 
 pub use verdict::{Checked, Counts, Fault, Verdict};
 

@@ -358,6 +358,9 @@ fn examples_of_the_readme_run() {
         "traverse five-bar --poses examples/five-bar-points.csv",
         "ik five-bar --file examples/five-bar-poses.csv",
         "follow delta --pose 0,0,-900 --file examples/delta-joints.csv",
+        "plan examples/irb-360-guard.toml --from 0,0,-1080 --to 300,100,-1060 --mode ---",
+        "check examples/five-bar-cell.toml",
+        "check examples/3-rrr-plate.toml",
     ] {
         let run = aspecta(command).current_dir(&root).output().unwrap();
         assert_eq!(run.status.code(), Some(0), "{command}: {}", String::from_utf8_lossy(&run.stderr));

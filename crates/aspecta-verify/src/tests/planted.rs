@@ -228,14 +228,14 @@ fn holds(sheet: &crate::certificate::Sheet, fits: impl Fn(&Leaf) -> bool) -> boo
 
 #[test]
 fn no_planted_fault_is_accepted() {
-    // In none of these a chart covers a box.
-    plant_all(&quick(), 42, KINDS - 1);
+    // In none of these a chart covers a box, or are there bodies.
+    plant_all(&quick(), 42, 11);
 }
 
 #[test]
 #[ignore = "20 minutes: a thousand faults, also in folds of a Delta and in chains of spherical robots"]
 fn no_fault_planted_in_charts_is_accepted() {
-    plant_all(&[quick(), slow()].concat(), 1000, KINDS);
+    plant_all(&[quick(), slow()].concat(), 1000, 12);
 }
 
 #[test]
