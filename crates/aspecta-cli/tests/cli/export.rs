@@ -218,7 +218,7 @@ fn bodies_and_obstacles_are_geoms_that_can_touch() {
         .map(|n| {
             let [one, other] = ["geom1", "geom2"].map(|key| n.attribute(key).unwrap());
             assert!(geom(one) != geom(other));
-            assert_eq!(n.attribute("margin"), n.attribute("gap"), "contacts push only where bodies overlap");
+            assert_eq!(n.attribute("gap"), None, "versions of MuJoCo disagree on what it is");
             (format!("{one} {other}"), numbers(n, "margin")[0])
         })
         .collect();

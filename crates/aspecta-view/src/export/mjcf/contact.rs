@@ -1,7 +1,7 @@
 //! What keeps clear of one another, as geoms of which MuJoCo finds the contacts.
 //!
-//! Only what the robot keeps apart can touch. Two bodies are in contact where they are nearer than the clearance between them, and push one
-//! another where they overlap.
+//! Only what the robot keeps apart can touch. Two bodies are in contact, and push one another, where they are nearer than the
+//! clearance between them. (Of a `gap` MuJoCo 4 makes something else than its versions before.)
 
 use super::element::Element;
 use super::leg::Limb;
@@ -44,7 +44,7 @@ impl Contact {
         let margin = if self.clearance.is_positive() { self.clearance.mid() } else { 0.0 };
         let pair = |one: &String, other: &String| {
             let pair = Element::new("pair").with("geom1", one).with("geom2", other).with("condim", 1);
-            pair.numbers("margin", &[margin]).numbers("gap", &[margin])
+            pair.numbers("margin", &[margin])
         };
         first.iter().flat_map(|one| second.iter().map(move |other| pair(one, other))).collect()
     }
