@@ -179,8 +179,8 @@ impl BodyPair {
     fn fits(&self, robot: &Robot) -> bool {
         let [first, second] = self.bodies;
         let is_clear = self.distance.lo > 0.0 || self.is_thin() && robot.platform.space() == 2;
-        let are_long =
-            !self.is_thin() || self.bodies.iter().all(|body| !robot.is_point(*body) && !robot.is_wall(*body));
+        let are_long = !self.is_thin()
+            || robot.wall_of(self).is_none() && self.bodies.iter().all(|body| !robot.is_point(*body));
         let of_one_leg = first.leg().is_some() && first.leg() == second.leg();
         let is_known =
             |body: &Body| body.is_of(robot) && (body.leg().is_some() || robot.capsule(*body).is_some());
@@ -206,9 +206,12 @@ impl Robot {
         self.capsule(body).and_then(|capsule| capsule.shape.ends()).is_some_and(|[from, to]| from == to)
     }
 
-    /// Whether a body is a wall.
-    pub fn is_wall(&self, body: Body) -> bool {
-        self.capsule(body).is_some_and(|capsule| matches!(capsule.shape, Shape::Wall { .. }))
+    /// Which of two bodies is a wall, the unit vector out of it and its offset.
+    pub fn wall_of(&self, pair: &BodyPair) -> Option<(usize, [Interval; 3], Interval)> {
+        pair.bodies.iter().enumerate().find_map(|(slot, body)| match self.capsule(*body)?.shape {
+            Shape::Wall { normal, offset } => Some((slot, normal, offset)),
+            Shape::Link | Shape::Axis(_) => None,
+        })
     }
 
     /// Whether the bodies and their pairs make sense.
@@ -243,7 +246,7 @@ impl Robot {
     fn are_pairs_complete(&self) -> bool {
         let zero = Interval::point(0.0);
         let among = |capsule: &Capsule| match capsule.body {
-            Body::Obstacle(_) if self.is_point(capsule.body) || self.is_wall(capsule.body) => 2,
+            Body::Obstacle(_) if capsule.as_solid().is_some() => 2,
             Body::Platform(_) => 1,
             Body::Crank(_) | Body::Rod(_) | Body::Obstacle(_) => 0,
         };

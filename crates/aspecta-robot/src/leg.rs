@@ -239,4 +239,10 @@ impl Leg {
             | Limit::Clearance(_) => None,
         })
     }
+
+    /// How long the two parts of a strut are that cover it at every length: as long as the shortest strut. `None` if the longest is more than
+    /// twice that, or open.
+    pub fn telescope(&self) -> Option<Interval> {
+        self.length_range().filter(|(min, max)| max.hi <= 2.0 * min.lo).map(|(min, _)| min)
+    }
 }

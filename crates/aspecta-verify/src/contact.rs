@@ -8,13 +8,16 @@
 //!
 //! Thin bodies, with no distance asked for, do not touch where a line parts them: one along either of them, or across it at an end.
 
+mod sides;
+
 use super::body::MOST;
 use super::in_mode::InMode;
 use super::place::{Along, Function, OWN, ZERO};
 use super::rods::Shared;
-use super::turns::{Joint, Turn, beside, joints};
+use super::turns::{Joint, Turn, joints};
 use aspecta_robot::num::{Interval, Jet, Scalar};
 use aspecta_robot::{AXES, Body, BodyPair};
+use sides::{are_parted, do_cross, lines, on_side, turns_at};
 
 /// A function of the axes and of the q of both bodies' legs.
 pub(super) type Both = Jet<Interval, { AXES + 2 }>;
@@ -248,6 +251,9 @@ impl<const D: usize> InMode<'_, '_, D> {
         if let Some(ends) = self.beyond_wall(pair) {
             return least_of(&ends);
         }
+        if D == 2 && !pair.is_thin() && do_cross(&self.axes(pair, |_, f| f.over.value)) {
+            return -pair.distance.square();
+        }
         match self.apart(pair, 1.0, 0.0) {
             Apart::Far => Interval { lo: f64::MIN_POSITIVE, hi: f64::INFINITY },
             Apart::Least(all) => {
@@ -355,46 +361,4 @@ fn is_far<const D: usize>(axes: &[Axis<Interval, D>; 2], pair: &BodyPair, scale:
     // A distance of gap more than is asked for.
     gap.is_positive()
         && ((gap * (gap + pair.distance + pair.distance)) / Interval::point(scale)).sqrt().lo > least
-}
-
-/// On which side of a line the end of a body is: lines 0 to 3 are those of the first body, and the end is of the second.
-fn on_side<T: Scalar, const D: usize>(axes: &[Axis<T, D>; 2], line: usize, end: usize) -> T {
-    let (own, point) = (&axes[line / 4], axes[1 - line / 4].end(end));
-    let away: [T; D] = std::array::from_fn(|k| point[k] - own.from[k]);
-    let across = own.along[0] * away[1] - own.along[1] * away[0];
-    match line % 4 {
-        0 => across,
-        1 => -across,
-        2 => product(&own.along, &away) - square(&own.along),
-        _ => -product(&own.along, &away),
-    }
-}
-
-/// How far the other body is on one side of each line.
-fn lesser_sides<const D: usize>(axes: &[Axis<Interval, D>; 2]) -> [Interval; 8] {
-    std::array::from_fn(|line| on_side(axes, line, 0).least(on_side(axes, line, 1)))
-}
-
-/// Whether a line parts the axes of two bodies.
-fn are_parted<const D: usize>(axes: &[Axis<Interval, D>; 2]) -> bool {
-    lesser_sides(axes).iter().any(|side| side.is_positive())
-}
-
-/// The lines that may part two bodies best.
-fn lines<const D: usize>(axes: &[Axis<Interval, D>; 2]) -> impl Iterator<Item = usize> + use<D> {
-    let lesser = lesser_sides(axes);
-    let best = lesser.iter().fold(f64::NEG_INFINITY, |best, line| best.max(line.lo));
-    (0..8).filter(move |line| lesser[*line].hi >= best)
-}
-
-/// The turns that the ends of the other body take on the side of a line; or that one, of an end of the line's body, that follows.
-fn turns_at(line: usize, joints: &[Joint; 4]) -> Vec<Turn> {
-    let own = [joints[line / 4 * 2], joints[line / 4 * 2 + 1]];
-    let other = [joints[2 - line / 4 * 2], joints[3 - line / 4 * 2]];
-    let minus = |a: Joint, b: Joint| [a.1[0] - b.1[0], a.1[1] - b.1[1]];
-    match line % 4 {
-        side @ 0..2 => other.map(|end| Turn::new([own[0].0, own[1].0, end.0], side == 0)).to_vec(),
-        2 => beside(own[1], minus(own[1], own[0]), other).into_iter().collect(),
-        _ => beside(own[0], minus(own[0], own[1]), other).into_iter().collect(),
-    }
 }

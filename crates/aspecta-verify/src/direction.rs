@@ -13,13 +13,18 @@ const CORRECTIONS: usize = 4;
 /// with g_k·v = 1 for some up to M of them (the support vectors of a machine of that name): all are tried.
 /// The vectors are first the middles of the boxes, then the corners that are worst for the direction found
 /// before.
+///
+/// Along an axis on which all components may be zero no direction is sure to gain anything: it stays out, lest noise be taken for a component.
 pub(super) fn climbable(growth: &[Vec<Interval>]) -> bool {
+    let axes = growth.first().map_or(0, Vec::len);
+    let axes: Vec<usize> = (0..axes).filter(|&i| growth.iter().any(|g| !g[i].contains(0.0))).collect();
+    let growth: Vec<Vec<Interval>> = growth.iter().map(|g| axes.iter().map(|&i| g[i]).collect()).collect();
     let Some(size) = growth.first().map(Vec::len) else { return false };
     let may_vanish = |g: &Vec<Interval>| g.iter().all(|x| x.contains(0.0));
     if growth.iter().any(may_vanish) {
         return false;
     }
-    let units = balanced(growth);
+    let units = balanced(&growth);
     let scaled = |g: &Vec<Interval>| -> Vec<Interval> {
         g.iter().zip(&units).map(|(x, unit)| *x * Interval::point(1.0 / unit)).collect()
     };
@@ -117,6 +122,18 @@ mod tests {
         assert!(!climbable(&thin(&[[1.0, 0.0], [-1.0, 1.0], [-1.0, -1.0]])));
         assert!(!climbable(&thin(&[[0.0, 0.0]])));
         assert!(!climbable(&[]));
+    }
+
+    /// A third axis with nothing but rounding, as where two functions do not change with an angle, hides no direction.
+    #[test]
+    fn noise_is_no_component() {
+        let with = |rows: [[f64; 2]; 2], noise: [Interval; 2]| {
+            let rows = thin(&rows).into_iter().zip(noise);
+            rows.map(|(row, noise)| [&row[..], &[noise]].concat()).collect::<Vec<_>>()
+        };
+        let noise = [Interval::new(-1e-318, 1e-318), Interval::new(-2.8e-10, 2.8e-9)];
+        assert!(climbable(&with([[-55775.6, 11939.5], [18000.4, -9643.9]], noise)));
+        assert!(!climbable(&with([[-55775.6, 11939.5], [55775.6, -11939.5]], noise)));
     }
 
     #[test]

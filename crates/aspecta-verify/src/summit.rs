@@ -160,10 +160,10 @@ impl<const D: usize> InMode<'_, '_, D> {
         let setting = self.place.setting;
         let scale = setting.scale;
         let exact = Interval::point;
-        let in_p = |constraint: Constraint, value: Interval| match constraint.counts_by_root(setting.robot) {
+        let in_p = |constraint: Constraint, value: Interval| {
             // Of what is below zero a root says nothing.
-            true if value.hi > 0.0 => value.sqrt(),
-            true | false => value,
+            let by_root = constraint.counts_by_root(setting.robot) && value.hi > 0.0;
+            if by_root { value.sqrt() } else { value }
         };
         let of = |constraint: Constraint| {
             let size = exact(scale[constraint]);

@@ -3,15 +3,13 @@
 use super::contact::{Both, lifted};
 use super::in_mode::InMode;
 use super::rods::Shared;
+use aspecta_robot::BodyPair;
 use aspecta_robot::num::Scalar;
-use aspecta_robot::{BodyPair, Shape};
 
 impl<const D: usize> InMode<'_, '_, D> {
     /// How far the ends of a body are in front of a wall, less the distance asked for; nothing if none of the two is a wall.
     pub(super) fn beyond_wall(&self, pair: &BodyPair) -> Option<Vec<Shared>> {
-        let robot = self.place.setting.robot;
-        let slot = pair.bodies.iter().position(|body| robot.is_wall(*body))?;
-        let Shape::Wall { normal, offset } = robot.capsule(pair.bodies[slot])?.shape else { return None };
+        let (slot, normal, offset) = self.place.setting.robot.wall_of(pair)?;
         let (over, middle) = (self.axes(pair, lifted), self.axes(pair, |_, f| f.at_middle));
         let asked = offset + pair.distance;
         let beyond = |end: usize| {

@@ -28,9 +28,8 @@ pub struct Analysing {
 #[derive(Args)]
 struct Wishes {
     /// How much nearness to singularities counts: a unit of length costs c^-W, c being the smaller of the
-    /// normalised |det A| and the
-    /// |B_jj|/max. 0: the shortest path; 8: as good as only the least clearance. Above 1 the whole aspect is
-    /// looked at, which takes longer
+    /// normalised |det A| and the |B_jj|/max. 0: the shortest path; 8: as good as only the least clearance.
+    /// Above 1 the whole aspect is looked at, which takes longer
     #[arg(long, value_name = "W", default_value_t = 1.0, allow_negative_numbers = true)]
     weight: f64,
     #[command(flatten)]

@@ -13,7 +13,7 @@ use crate::modal::LegClosure;
 use crate::placement::{Placement, out_of_frame};
 use aspecta_robot::legs::sum_of_squares;
 use aspecta_robot::num::{Interval, Scalar, TwoLinks, dot, dot_constant, each};
-use aspecta_robot::{Body, BodyPair, LegIndex, Robot, Shape};
+use aspecta_robot::{Body, BodyPair, LegIndex, Robot};
 use std::ops::Range;
 
 /// A part of what keeps two bodies apart, smooth where it counts.
@@ -60,20 +60,15 @@ impl Line {
 impl Feature {
     /// The distances of which the least counts.
     pub fn distances(robot: &Robot, pair: &BodyPair) -> impl Iterator<Item = Self> {
-        let whole = (robot.platform.space() == 3 && wall_of(robot, pair).is_none()).then_some(Self::Distance);
+        let whole = (robot.platform.space() == 3 && robot.wall_of(pair).is_none()).then_some(Self::Distance);
         whole.into_iter().chain(ends(robot, pair).map(Self::End))
     }
-}
-
-/// Which of two bodies is a wall.
-fn wall_of(robot: &Robot, pair: &BodyPair) -> Option<usize> {
-    pair.bodies.iter().position(|body| robot.is_wall(*body))
 }
 
 /// The ends of two bodies of which the least distance from the other body counts, in the plane, and in space from a wall: of a body that is a point,
 /// that alone.
 fn ends(robot: &Robot, pair: &BodyPair) -> Range<usize> {
-    if let Some(wall) = wall_of(robot, pair) {
+    if let Some((wall, ..)) = robot.wall_of(pair) {
         let first = 2 * (1 - wall);
         return first..first + if robot.is_point(pair.bodies[1 - wall]) { 1 } else { 2 };
     }
@@ -172,10 +167,7 @@ impl<T: Scalar, const D: usize> TwoBodies<T, D> {
         heights: &[T],
     ) -> Self {
         let axes = pair.bodies.map(|body| Axis::of(robot, body, placement, legs, heights));
-        let wall = wall_of(robot, pair).and_then(|wall| match robot.capsule(pair.bodies[wall])?.shape {
-            Shape::Wall { normal, offset } => Some((each!(|k| normal[k]), offset)),
-            Shape::Link | Shape::Axis(_) => None,
-        });
+        let wall = robot.wall_of(pair).map(|(_, normal, offset)| (each!(|k| normal[k]), offset));
         Self { axes, distance: pair.distance, is_thin: pair.is_thin(), wall, ends: ends(robot, pair) }
     }
 

@@ -194,9 +194,10 @@ class Robot(Kinematics):
     ) -> Plan:
         """Plan a motion between two poses (dof,): see :meth:`Analysis.plan`, which plans again without analysing anew.
 
-        Where three coordinates vary a straight way, and one round what is in between, are tried first. Robots with six coordinates are planned over a roadmap of
-        ``samples`` poses, within a mode; the aspects of others are found in boxes of the given ``depth`` (default: as fine as it
-        takes, within reason). All steps together have so many ``seconds``, after which those that can stop do.
+        Where three coordinates vary a straight way, and one round what is in between, are tried first. Robots with six
+        coordinates are planned over a roadmap of ``samples`` poses, within a mode; the aspects of others are found in boxes of
+        the given ``depth`` (default: as fine as it takes, within reason). All steps together have so many ``seconds``, after
+        which those that can stop do.
         """
         ends = [self._pose("start", start), self._pose("goal", goal)]
         wanted = _input.wishes(weight, avoid)

@@ -56,7 +56,7 @@ impl Context<'_> {
     /// Some configuration must be allowed; and in space, where two lines hardly ever meet, bodies have some thickness.
     pub fn check_pairs(&self, span: &Span<usize>, robot: &Robot, pairs: &[BodyPair]) -> Result<(), Fault> {
         for pair in pairs {
-            if pair.is_thin() && pair.bodies.iter().any(|body| robot.is_wall(*body)) {
+            if pair.is_thin() && robot.wall_of(pair).is_some() {
                 let reason =
                     format!("{pair} have no thickness: give the body a radius, or a clearance above 0");
                 return Err(out_of_place(span, reason));

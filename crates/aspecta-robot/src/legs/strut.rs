@@ -143,8 +143,7 @@ impl LegKind for Strut {
     /// Both parts are as long as the shortest strut if they cover the longest so, as those that are built are.
     fn bodies(&self, leg: &Leg, at: &Points<f64, 3>, q: f64) -> [Body; 2] {
         let span = minus(at.c, at.a);
-        let shortest = leg.length_range().filter(|(min, max)| max.hi <= 2.0 * min.lo);
-        let part = times(shortest.map_or(0.5, |(min, _)| min.lo / q), span);
+        let part = times(leg.telescope().map_or(0.5, |part| part.lo / q), span);
         [
             Body {
                 name: "cylinder",

@@ -77,12 +77,13 @@ fn barriers<const D: usize, const N: usize>(robot: &Robot, mode: WorkingMode, po
         q.push(leg.joint_value(leg.actuator.drive(&at.span, closure, sh)));
     }
     let at = Configuration { robot, placement: &placement, legs: &legs, heights: &heights, mode };
-    let mut contacts = 0..;
-    let kind = |constraint: Constraint| match constraint.is_contact(robot) {
-        true => contacts.next().map_or(Kind::Limit, Kind::Contact),
-        false => Kind::Limit,
-    };
-    let (limits, values): (Vec<_>, Vec<_>) = at.limits().unzip();
-    margins.extend(limits.into_iter().map(kind).zip(values));
+    let mut touching = 0;
+    margins.extend(at.limits().map(|(constraint, margin)| match constraint.is_contact(robot) {
+        true => {
+            touching += 1;
+            (Kind::Contact(touching - 1), margin)
+        }
+        false => (Kind::Limit, margin),
+    }));
     Barriers { det: determinant(&rows), margins, q, folded }
 }

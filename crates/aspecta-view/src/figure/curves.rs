@@ -211,7 +211,9 @@ impl Sheet<'_> {
 
 /// By how much margin k may be below zero on a line: where the joint of two rods touches something both do, and neither is to hide the other's line.
 fn slack(nodes: &[Barriers], k: usize) -> f64 {
-    let sum: f64 = nodes.iter().map(|node| node.margins[k].1.abs()).sum();
+    // Beyond the reach of a leg a margin may be no number.
+    let sizes = nodes.iter().map(|node| node.margins[k].1.abs()).filter(|size| size.is_finite());
+    let sum: f64 = sizes.sum();
     match nodes.first().map(|node| node.margins[k].0) {
         Some(Kind::Contact(_)) => TOUCHING * sum / nodes.len() as f64,
         Some(Kind::Limit | Kind::Serial | Kind::Parallel) | None => 0.0,

@@ -90,6 +90,8 @@ struct Layout {
     top: f64,
     /// Pixels left of a plot.
     left: f64,
+    /// The width of the legend.
+    legend: f64,
 }
 
 impl Layout {
@@ -99,7 +101,8 @@ impl Layout {
         let top = if survey.slice.is_some() { HEADING } else { 0.0 };
         let (w, q) = (fit(survey.pose_axes.clone()), survey.joint_axes.clone().map(fit));
         let left = q.iter().chain([&w]).map(Chart::margin).fold(LEFT, f64::max);
-        Self { w, q, top, left }
+        let legend = LEGEND + limits(kinds(survey)).map(|(_, name)| sample_width(name)).sum::<f64>();
+        Self { w, q, top, left, legend }
     }
 
     /// Width of a pair.
@@ -121,7 +124,7 @@ impl Layout {
     /// Width and height of a figure of so many pairs, and a legend below.
     fn size(&self, pairs: usize) -> (f64, f64) {
         let columns = self.columns().min(pairs);
-        let width = (columns as f64 * self.pair() + 10.0).max(LEGEND);
+        let width = (columns as f64 * self.pair() + 10.0).max(self.legend);
         (width, self.top + pairs.div_ceil(columns) as f64 * self.row() + 34.0)
     }
 
@@ -273,18 +276,22 @@ fn legend(svg: &mut Svg, survey: &Survey<'_>, shown: AspectId, at: [f64; 2]) {
     x = swatch(svg, [x, at[1]], UNDECIDED, "undecided cells");
     x = sample_line(svg, [x, at[1]], Kind::Parallel, "det A = 0 (parallel)");
     x = sample_line(svg, [x, at[1]], Kind::Serial, "det B = 0 (serial)");
-    limit_samples(svg, [x, at[1]], survey.curves.iter().flat_map(|curves| &curves.w).map(|line| line.0));
+    limit_samples(svg, [x, at[1]], kinds(survey));
+}
+
+fn kinds(survey: &Survey<'_>) -> impl Iterator<Item = Kind> + Clone {
+    survey.curves.iter().flat_map(|curves| &curves.w).map(|line| line.0)
 }
 
 /// Samples of lines that are no singularities, if there are some.
 pub(crate) fn limit_samples(svg: &mut Svg, at: [f64; 2], kinds: impl Iterator<Item = Kind> + Clone) {
-    let mut x = at[0];
-    if kinds.clone().any(|kind| kind == Kind::Limit) {
-        x = sample_line(svg, [x, at[1]], Kind::Limit, "joint limit");
-    }
-    if kinds.clone().any(|kind| matches!(kind, Kind::Contact(_))) {
-        sample_line(svg, [x, at[1]], Kind::Contact(0), "contact");
-    }
+    limits(kinds).fold(at[0], |x, (kind, name)| sample_line(svg, [x, at[1]], kind, name));
+}
+
+/// The kinds of lines that are no singularities, and their names.
+fn limits(kinds: impl Iterator<Item = Kind> + Clone) -> impl Iterator<Item = (Kind, &'static str)> {
+    let all = [(Kind::Limit, "joint limit"), (Kind::Contact(0), "contact")];
+    all.into_iter().filter(move |(of, _)| kinds.clone().any(|kind| line_style(kind) == line_style(*of)))
 }
 
 pub(crate) fn swatch(svg: &mut Svg, at: [f64; 2], colour: &str, text: &str) -> f64 {

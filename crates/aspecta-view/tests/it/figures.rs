@@ -48,6 +48,21 @@ fn contours_keep_branches_apart() {
     }
 }
 
+/// Where legs do not reach, margins of contacts may be no numbers; where they do, all kinds of curves are there.
+#[test]
+fn curves_of_a_body_with_contacts() {
+    let file = include_str!("../../../../examples/3-rrr-plate.toml");
+    let robot = Robot::from_toml(file, "3-rrr-plate.toml").unwrap();
+    let plane = Plane { through: vec![0.0, 0.0, 0.1], axes: [0, 1] };
+    let sheet = Sheet { robot: &robot, mode: "+-+".parse().unwrap(), plane: &plane };
+    let found = sheet.curves(&Grid { x: (-20.0, 20.0), y: (-20.0, 20.0), n: 200 });
+    let count = |fits: &dyn Fn(Kind) -> bool| found.iter().filter(|curve| fits(curve.kind)).count();
+    let contacts = count(&|kind| matches!(kind, Kind::Contact(_)));
+    assert!(
+        contacts > 10 && count(&|kind| kind == Kind::Serial) > 2 && count(&|kind| kind == Kind::Parallel) > 2
+    );
+}
+
 /// Each curve of a contact is told from the others, and lies where that contact is: of two rods that end in one joint, which both touch a wall there,
 /// neither hides the other.
 #[test]

@@ -277,7 +277,22 @@ fn bodies_of_the_platform_stay_in_front_of_walls() {
     let mut alone = robot.clone();
     alone.legs.iter_mut().for_each(|leg| leg.limits.clear());
     let analysis = analyzed(&alone);
-    assert!(is_accepted(analysis.certificate.as_ref().unwrap()));
+    let certificate = analysis.certificate.as_ref().unwrap();
+    assert!(is_accepted(certificate));
+    for fault in 0..3 {
+        let mut forged = certificate.clone();
+        let wall = forged.robot.bodies.iter_mut().find_map(|body| match &mut body.shape {
+            Shape::Wall { normal, offset } => Some((normal, offset)),
+            Shape::Link | Shape::Axis(_) => None,
+        });
+        let (normal, offset) = wall.unwrap();
+        match fault {
+            0 => *offset = *offset + Interval::point(0.1),
+            1 => *offset = *offset - Interval::point(0.1),
+            _ => *normal = [Interval::point(0.0), Interval::point(1.0), Interval::point(0.0)],
+        }
+        assert!(!is_accepted(&forged), "{fault}");
+    }
     // The same by the end of a rod, of which the distance is a limit of its leg.
     let mut by_limit = alone.clone();
     by_limit.bodies.clear();

@@ -124,7 +124,7 @@ fn is_solid(robot: &Robot, body: Body) -> bool {
     let is_whole = |leg: LegIndex| {
         let leg = robot.leg(leg);
         let is_strut = leg.actuator.kind().facts().is_positive;
-        !is_strut || leg.length_range().is_some_and(|(min, max)| max.hi <= 2.0 * min.lo)
+        !is_strut || leg.telescope().is_some()
     };
     match body {
         Body::Obstacle(number) if robot.obstacles().contains_key(&number) => true,
