@@ -220,12 +220,12 @@ impl<T: Scalar, const N: usize> ModalRows<T, N> {
 }
 
 impl<const N: usize, const M: usize> ModalRows<Slope<Pack, M>, N> {
-    /// The range of [`ModalRows::det`] over eight boxes, times some positive number: more work, but mostly
-    /// much narrower where N > 3 (the module `condition`).
-    pub fn conditioned_det(&self, mode: WorkingMode) -> Pack {
+    /// [`ModalRows::det`] over eight boxes, times some positive number: more work, but mostly much narrower where N > 3 (the
+    /// module `condition`).
+    pub fn conditioned_det(&self, mode: WorkingMode) -> Slope<Pack, M> {
         let rows: [[_; N]; N] = std::array::from_fn(|j| self.row(j, mode.sign(j)));
         let by = Conditioner::new(&rows);
-        determinant(&rows.map(|row| by.row(&row))).tightened().range * by.det
+        determinant(&rows.map(|row| by.row(&row))).tightened().times(by.det)
     }
 }
 

@@ -8,7 +8,7 @@ use crate::watch::watched;
 use aspecta::kinematics::{DirectSolutions, KinematicsError, start};
 use aspecta::paving::Budget;
 use aspecta::robot::work;
-use aspecta::{Kinematics, Options, Solution, WorkingMode};
+use aspecta::{Kinematics, Options, Purpose, Solution, WorkingMode};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -188,7 +188,7 @@ impl Robot {
     }
 
     /// The analysis of the robot or of a slice.
-    #[pyo3(signature = (fix, modes, seconds, boxes, depth, resolution, certificate, progress))]
+    #[pyo3(signature = (fix, modes, seconds, boxes, depth, resolution, certificate, numbers_only, progress))]
     #[expect(clippy::too_many_arguments, reason = "the keywords of Python's `analyze`, which calls it")]
     fn analyze(
         &self,
@@ -200,11 +200,13 @@ impl Robot {
         depth: Option<u32>,
         resolution: Option<f64>,
         certificate: bool,
+        numbers_only: bool,
         progress: Option<Bound<'_, PyAny>>,
     ) -> PyResult<Py<PyAny>> {
         let modes = modes.iter().map(|mode| self.mode(mode)).collect::<PyResult<Vec<_>>>()?;
-        let options =
-            Options { budget: Budget { seconds, boxes, depth, resolution }, fix, modes, certificate };
+        let budget = Budget { seconds, boxes, depth, resolution };
+        let purpose = if numbers_only { Purpose::Numbers } else { Purpose::Pictures };
+        let options = Options { budget, fix, modes, certificate, purpose };
         let robot = Arc::clone(&self.robot);
         let found =
             watched(py, progress.as_ref(), move |control| aspecta::analyze(&robot, &options, control))?;

@@ -6,7 +6,7 @@ mod summits;
 
 use super::*;
 use crate::certificate::{Claim, Entry, Join, Leaf};
-use aspecta::aspect::{Options, analyze};
+use aspecta::aspect::{Options, Purpose, analyze};
 use aspecta::paving::Budget;
 use aspecta_robot::ClassSet;
 use aspecta_robot::constraint::Constraint;
@@ -275,7 +275,7 @@ fn robots_of_the_catalogue() {
 }
 
 fn certified_slice(name: &str, fix: Vec<(usize, f64)>, modes: &[&str], budget: Budget) -> Certificate {
-    let options = Options { budget, fix, modes: parsed(modes), certificate: true };
+    let options = Options { budget, fix, modes: parsed(modes), certificate: true, purpose: Purpose::Numbers };
     written(&catalogue::find(name).unwrap(), &options)
 }
 

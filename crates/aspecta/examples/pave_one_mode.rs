@@ -1,9 +1,9 @@
 //! Paves one working mode of the paper's five-bar and prints what `benches/peers` compares, as JSON:
-//! `cargo run --release -p aspecta --example pave_one_mode -- ++ 11 20` (mode, depth, repetitions; these if none are given).
+//! `cargo run --release -p aspecta --example pave_one_mode -- ++ 9 20` (mode, depth, repetitions; these if none are given).
 
 use aspecta::Kinematics;
 use aspecta::kinematics::{KinematicsError, WorkingMode};
-use aspecta::paving::{Budget, Control, Mark, Paving};
+use aspecta::paving::{Budget, Control, Mark, Paving, Shares};
 use aspecta::robot::Robot;
 use aspecta::robot::work::Stopwatch;
 use serde_json::json;
@@ -17,7 +17,7 @@ const SAMPLES: usize = 40;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let usual = ["++", "11", "20"].map(String::from);
+    let usual = ["++", "9", "20"].map(String::from);
     let [mode, depth, repetitions] = (if arguments.is_empty() { &usual[..] } else { &arguments }) else {
         return Err("usage: pave_one_mode [MODE DEPTH REPETITIONS]".into());
     };
@@ -29,13 +29,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     let pave = || {
         let start = Stopwatch::start();
         let paving = Paving::new(&robot, &window, &[mode], &budget, &control);
-        (start.seconds(), paving)
+        let mut shares = Shares::default();
+        shares.update(&paving, &robot);
+        (start.seconds(), paving, shares)
     };
-    let (mut seconds, paving) = pave();
+    let (mut seconds, paving, shares) = pave();
     for _ in 1..repetitions.parse::<usize>()? {
         seconds = seconds.min(pave().0);
     }
-    let (certified, undecided) = areas(&paving);
+    let (certified, undecided) = areas(&paving, &shares);
     let report = json!({
         "seconds": seconds, "boxes": paving.boxes, "depth": paving.depth, "window": window.ranges,
         "certified": certified, "undecided": undecided, "samples": samples(&robot, mode, &window.ranges)?,
@@ -44,8 +46,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Areas of the boxes proved inside the set det A > 0 and of those undecided about it.
-fn areas(paving: &Paving) -> (f64, f64) {
+/// The area proved to be inside the set det A > 0, and that of which neither is proved.
+fn areas(paving: &Paving, shares: &Shares) -> (f64, f64) {
     let (mut certified, mut undecided) = (0.0, 0.0);
     paving.boxes_of(&|node| node.of_classes(DET_A_POSITIVE), &mut |at| {
         let area = paving.measure(paving.depth_of(at));
@@ -54,6 +56,11 @@ fn areas(paving: &Paving) -> (f64, f64) {
             _ => undecided += area,
         }
     });
+    for &(node, share) in shares.of(0) {
+        let area = paving.measure(paving.depth_of(node));
+        certified += f64::from(share.inside) * area;
+        undecided -= f64::from(share.inside + share.outside) * area;
+    }
     (certified, undecided)
 }
 

@@ -108,7 +108,7 @@ pub use aspecta_verify::certificate::Certificate;
 #[doc(inline)]
 pub use aspecta_verify::{Verdict, verify};
 
-pub use aspect::{Analysis, Aspect, AspectId, ClassId, DetSign, Options, analyze};
+pub use aspect::{Analysis, Aspect, AspectId, ClassId, DetSign, Options, Purpose, analyze};
 pub use domain::{DomainOptions, Domains, Location, Map, MappedAspect, RegionId, domains};
 pub use error::Error;
 pub use motion::assembly::{AssemblyModes, assembly_modes};

@@ -11,7 +11,7 @@ use crate::failure::{Answer, Failure};
 use crate::input;
 use crate::output::{self, Target, note};
 use crate::work::watch::watched;
-use aspecta::aspect::{Analysis, Options, analyze};
+use aspecta::aspect::{Analysis, Options, Purpose, analyze};
 use aspecta::paving::{Budget, Stop};
 use aspecta::text::{AnalysisAdvice, AnalysisSummary};
 use aspecta_view::write_report;
@@ -47,7 +47,7 @@ pub struct Analyze {
     /// window, or for 4e7 boxes (4e6 where three rods can be parallel, a spherical leg can fold or det A vanishes everywhere: there
     /// the bounds stay apart); with it never longer. `depth` and `res` (in length units, or in radians where angles alone vary) say how
     /// fine boxes may get, so the bounds may stay apart; they also set how finely the rest is drawn and measured [default: depth 16
-    /// for 1 free coordinate, 11 for 2, 7 for 3]. Times depend on the machine, the others do not. Drawing --out comes on top
+    /// for 1 free coordinate, 11 for 2, 7 for 3; without --out as coarse as leaves 0.3 % of the measures undecided, or, in space, as 131072 boxes more than counts take]. Times depend on the machine, the others do not. Drawing --out comes on top
     #[arg(long, value_parser = budget::parse, allow_hyphen_values = true)]
     budget: Option<Budget>,
     #[command(flatten)]
@@ -80,7 +80,8 @@ impl Analyze {
         let proof = self.certificate.as_deref().map(|path| Target::new("--certificate", path)).transpose()?;
         let budget = self.budget.unwrap_or_default();
         let modes = input::modes(&robot, &self.mode)?;
-        let options = Options { budget, fix, modes, certificate: proof.is_some() };
+        let purpose = if self.out.directory().is_none() { Purpose::Numbers } else { Purpose::Pictures };
+        let options = Options { budget, fix, modes, certificate: proof.is_some(), purpose };
         let analysis = watched(self.threads, |control| analyze(&robot, &options, control))??;
         self.print(out, &analysis)?;
         if let (Some(target), Some(certificate)) = (&proof, &analysis.certificate) {

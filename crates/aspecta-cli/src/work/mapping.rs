@@ -4,7 +4,7 @@ use crate::args::making::Making;
 use crate::failure::{Failure, advice};
 use crate::input;
 use crate::work::watch::{abandoned_if_cancelled, unkept, within_seconds};
-use aspecta::aspect::{Analysis, AspectId, DetSign, Options, analyze};
+use aspecta::aspect::{Analysis, AspectId, DetSign, Options, Purpose, analyze};
 use aspecta::domain::{DomainOptions, Domains, Map, MapError, MappedAspect, Surfaces, domains};
 use aspecta::kinematics::WorkingMode;
 use aspecta::paving::{Budget, Control, Stop};
@@ -128,7 +128,13 @@ impl Making {
         let free = part.free(robot);
         let mut budget = self.budget.unwrap_or_else(|| Budget::coarse(free));
         budget.seconds = budget.seconds.map(|seconds| 0.5 * seconds);
-        let options = Options { budget, fix: part.fix, modes: part.modes, ..Options::default() };
+        let options = Options {
+            budget,
+            fix: part.fix,
+            modes: part.modes,
+            purpose: Purpose::Boxes,
+            ..Options::default()
+        };
         let usual = DomainOptions::usual(robot, free);
         let cells = self.cells.map_or(usual.cells, usize::from);
         let analysis = Arc::new(unkept(|| analyze(robot, &options, control))?);

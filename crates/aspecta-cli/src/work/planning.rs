@@ -7,7 +7,7 @@ use crate::args::planning::{Analysing, Moving, Planning};
 use crate::failure::Failure;
 use crate::output::{Labels, brief, note};
 use aspecta::Kinematics;
-use aspecta::aspect::{Analysis, Options, analyze};
+use aspecta::aspect::{Analysis, Options, Purpose, analyze};
 use aspecta::kinematics::WorkingMode;
 use aspecta::motion::ProfilePoint;
 use aspecta::motion::explore::{self, Effort, NoWay};
@@ -49,7 +49,8 @@ impl Analysing {
         let modes = if robot.dof() == 2 { &[] } else { modes };
         let mut finer = if self.budget.is_none() { FINER } else { 0 };
         let mut all = |control: &Control<'_>| loop {
-            let options = Options { budget, modes: modes.to_vec(), ..Options::default() };
+            let options =
+                Options { budget, modes: modes.to_vec(), purpose: Purpose::Boxes, ..Options::default() };
             let analysis = unkept(|| analyze(robot, &options, control))?;
             if analysis.run.stop == Stop::Cancelled {
                 note("the time was over: what follows rests on the aspects found so far");

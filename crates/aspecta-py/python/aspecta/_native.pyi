@@ -94,6 +94,7 @@ class Robot:
         depth: int | None,
         resolution: float | None,
         certificate: bool,
+        numbers_only: bool,
         progress: _Progress,
     ) -> Analysis: ...
     def plan_without_aspects(self, ends: list[list[float]], mode: str, wanted: _Wanted) -> _Planned | None: ...

@@ -53,6 +53,7 @@ class Robot(Kinematics):
         depth: int | None = None,
         resolution: float | None = None,
         certificate: bool = False,
+        numbers_only: bool = False,
         progress: Progress = None,
     ) -> Analysis:
         """Find the generalized aspects (Def. 8), with certified bounds on their number.
@@ -63,6 +64,8 @@ class Robot(Kinematics):
             seconds, boxes, depth, resolution: when to stop before the bounds meet, whichever comes first; without any, when
                 they have met.
             certificate: whether to keep the proof, as :attr:`Analysis.certificate`.
+            numbers_only: whether nothing is to be drawn or planned: a fraction of the boxes then does, as on the command line
+                without ``--out``.
             progress: called as ``progress(stage, done, total)`` now and then, or ``True`` for a bar (with tqdm installed).
 
         Raises:
@@ -83,7 +86,7 @@ class Robot(Kinematics):
             _input.positive("resolution", resolution),
         )
         return kept(
-            lambda: self._native.analyze(held, known, *budget, certificate, reporter(progress)),
+            lambda: self._native.analyze(held, known, *budget, certificate, numbers_only, reporter(progress)),
             lambda native: Analysis(self, native, native.json(), native.text(False)),
         )
 

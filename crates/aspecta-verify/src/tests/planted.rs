@@ -9,7 +9,8 @@ use std::collections::BTreeMap;
 /// A certificate down to a depth, whose claims are the most that its leaves and links prove.
 fn coarse(robot: &Robot, fix: &[(usize, f64)], mode: &str, depth: u32) -> Certificate {
     let budget = Budget { depth: Some(depth), ..Budget::default() };
-    let options = Options { budget, fix: fix.to_vec(), modes: parsed(&[mode]), certificate: true };
+    let purpose = Purpose::Numbers;
+    let options = Options { budget, fix: fix.to_vec(), modes: parsed(&[mode]), certificate: true, purpose };
     let mut certificate = written(robot, &options);
     certificate.claims.fill(Claim { low: 0, high: None });
     let verdict = checked(&certificate);

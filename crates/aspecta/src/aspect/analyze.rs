@@ -15,7 +15,7 @@ use super::result::*;
 use super::seams::centre;
 use super::search::Search;
 use super::{AspectId, SingularMode};
-use crate::paving::{Budget, Control, MODES, Mark, Node, Paving, Progress, Stop};
+use crate::paving::{Budget, Control, MODES, Mark, Node, Paving, Progress, Share, Stop};
 use aspecta_kinematics::chart::uncharted_folds;
 use aspecta_kinematics::parallel_rods::parallel_rods;
 use aspecta_kinematics::{AgileEye, Architecture, Kinematics, WorkingMode, architecture};
@@ -100,7 +100,7 @@ fn analyze_here(robot: &Robot, options: &Options, control: &Control<'_>) -> Resu
     for (k, group) in groups.clone().enumerate() {
         let spent = (passes.iter().map(|pass| pass.boxes).sum(), start.seconds());
         let share = budget.share(groups.len() - k, spent);
-        passes.push(Pass::run(robot, &window, group, &share, options.certificate, control));
+        passes.push(Pass::run(robot, &window, group, &share, options, control));
     }
     (control.progress)(Progress { stage: "definitions 5 and 6", done: 0, total: 1 });
     let (parallel, serial) = match &passes[..] {
@@ -176,12 +176,16 @@ impl Pass {
         window: &Window,
         modes: &[WorkingMode],
         budget: &Budget,
-        keep_proof: bool,
+        options: &Options,
         control: &Control<'_>,
     ) -> Self {
-        let Search { atlas, counted, stop } = Search::run(robot, window, modes, budget, control);
+        let Search { atlas, counted, shares, stop } =
+            Search::run(robot, window, modes, (budget, options.purpose), control);
         let paving = &atlas.sheets[0];
-        let mut found = work::map(&counted, |(class, counted)| Found::new(&atlas, *class, counted));
+        let of_class: Vec<_> =
+            counted.iter().enumerate().map(|(k, counted)| (counted, shares.of(k))).collect();
+        let mut found =
+            work::map(&of_class, |((class, counted), shares)| Found::new(&atlas, *class, counted, shares));
         let mut singular_modes = Vec::new();
         for ((class, _), found) in counted.iter().zip(&mut found).filter(|(c, _)| c.0.vanishes()) {
             let domains = std::mem::replace(found, Found::none(*class)).class;
@@ -195,7 +199,7 @@ impl Pass {
             singular_modes,
             doubts: in_doubt.flat_map(|(class, counted)| doubts(&atlas, *class, counted)).collect(),
             modes: modes.iter().enumerate().map(|(m, mode)| mode_report(robot, paving, m, *mode)).collect(),
-            certificate: keep_proof.then(|| certificate(&atlas, &counted)),
+            certificate: options.certificate.then(|| certificate(&atlas, &counted)),
             boxes: atlas.boxes(),
             stop,
             paving: { atlas.sheets }.swap_remove(0),
@@ -231,7 +235,7 @@ impl Found {
         Self { class, labels: Vec::new() }
     }
 
-    fn new(atlas: &Atlas<'_>, class: Class, counted: &Counted) -> Self {
+    fn new(atlas: &Atlas<'_>, class: Class, counted: &Counted, shares: &[(u32, Share)]) -> Self {
         let components = &counted.components;
         let total =
             |group: &Group| group.pieces.iter().map(|&k| components.pieces[k as usize].measure).sum::<f64>();
@@ -252,16 +256,25 @@ impl Found {
         let classify = |node: &Node| node.of_classes(class.bit);
         paving.boxes_of(&classify, &mut |node| labels.push((node, label[node as usize])));
         labels.sort_unstable();
-        let undecided =
-            labels.iter().filter(|l| l.1 == 0).map(|l| paving.measure(paving.depth_of(l.0))).sum();
-        let aspects: Vec<Aspect> = groups.iter().map(|g| aspect(atlas, class, components, g)).collect();
+        let mut aspects: Vec<Aspect> = groups.iter().map(|g| aspect(atlas, class, components, g)).collect();
+        let whole = |node: u32| paving.measure(paving.depth_of(node));
+        let mut undecided: f64 = labels.iter().filter(|l| l.1 == 0).map(|l| whole(l.0)).sum();
+        let owner = counted.owners(groups.iter().map(|group| group.component));
+        for &(node, Share { inside, outside }) in shares {
+            undecided -= f64::from(outside) * whole(node);
+            // What may belong to an aspect that is not found stays undecided.
+            if let Some(k) = owner(node) {
+                undecided -= f64::from(inside) * whole(node);
+                aspects[k].measure += f64::from(inside) * whole(node);
+            }
+        }
         let class = AspectClass {
             mode: class.mode,
             det_a: class.det_a(),
             low: aspects.len(),
             high: counted.high(),
-            measure: aspects.iter().map(|a| a.measure).sum(),
-            undecided,
+            measure: aspects.iter().map(|aspect| aspect.measure).sum(),
+            undecided: undecided.max(0.0),
             aspects,
         };
         Self { class, labels }

@@ -28,9 +28,19 @@ pub(super) struct Limits<'a> {
     pub time: Option<(Stopwatch, f64)>,
     /// How long, in seconds, each box takes in what follows: the last count and the report.
     pub rest: f64,
+    /// Whether all boxes are to be found in which an aspect could hide, though one is enough to keep the bounds of its class apart.
+    pub names_doubts: bool,
     /// Whether the time has kept anything from being done.
     pub late: AtomicBool,
     pub control: &'a Control<'a>,
+}
+
+/// What a sample of leaves says of all.
+#[derive(Clone, Copy)]
+struct Sampled {
+    are_worth_it: bool,
+    /// Classes that stay open in some that are as small as they may be: nothing will close them.
+    lost: ClassSet,
 }
 
 /// The result of [`Atlas::even_out`].
@@ -187,13 +197,15 @@ impl<'a> Atlas<'a> {
     /// are the leaves not searched yet. False if boxes or time ended it.
     pub(super) fn uncover(&mut self, mut fresh: Vec<Leaf>, limits: &Limits<'_>) -> bool {
         loop {
-            let worth = self.is_worth_searching(&fresh);
+            let sampled = self.sampled(&fresh, limits.depth);
+            let worth = sampled.is_none_or(|sampled| sampled.are_worth_it);
             let open = if worth { self.survey(&fresh, limits) } else { fresh };
             let (split, deepest): (Vec<Leaf>, Vec<Leaf>) =
                 open.into_iter().partition(|&leaf| self.depth_of(leaf) < limits.depth);
             if !worth {
-                // What cannot be split is searched all the same.
-                self.survey(&deepest, limits);
+                // What cannot be split is searched all the same, for the classes that may be closed or are asked about.
+                let lost = sampled.filter(|_| !limits.names_doubts).map_or(0, |sampled| sampled.lost);
+                self.survey_classes(&deepest, !lost, limits);
             }
             if split.is_empty() {
                 return true;
@@ -235,12 +247,12 @@ impl<'a> Atlas<'a> {
         }
     }
 
-    /// Whether enough leaves have no summit to make a search worth its time, judged by a sample; if not, it
-    /// is better to split them all first.
-    fn is_worth_searching(&self, leaves: &[Leaf]) -> bool {
+    /// A sample of leaves, if they are many: whether enough have no summit to make a search worth its time (if not, it is better to split
+    /// them all first), and the classes that stay open in some as small as they may be.
+    fn sampled(&self, leaves: &[Leaf], deepest: u32) -> Option<Sampled> {
         const SAMPLE: usize = 512;
         if leaves.len() < 8 * SAMPLE {
-            return true;
+            return None;
         }
         let sheet = leaves[0].0;
         let sample: Vec<(u32, ClassSet)> = leaves
@@ -249,13 +261,23 @@ impl<'a> Atlas<'a> {
             .step_by(leaves.len() / SAMPLE)
             .map(|&leaf| (leaf.1, self.open(leaf)))
             .collect();
-        let settled =
-            sample.iter().zip(self.summitless(sheet, &sample)).filter(|(s, proved)| s.1 & !proved == 0);
-        10 * settled.count() > 3 * sample.len()
+        let proved = self.summitless(sheet, &sample);
+        let open = || sample.iter().zip(&proved).map(|(asked, proved)| (asked.0, asked.1 & !proved));
+        let settled = open().filter(|open| open.1 == 0).count();
+        let is_last = |node: u32| self.depth_of((sheet, node)) >= deepest;
+        Some(Sampled {
+            are_worth_it: 10 * settled > 3 * sample.len(),
+            lost: open().filter(|open| is_last(open.0)).fold(0, |lost, open| lost | open.1),
+        })
     }
 
     /// Looks for summits in leaves, as long as the limits allow, and returns those in which some might be.
     pub(super) fn survey(&mut self, leaves: &[Leaf], limits: &Limits<'_>) -> Vec<Leaf> {
+        self.survey_classes(leaves, !0, limits)
+    }
+
+    /// [`Atlas::survey`] of some classes.
+    fn survey_classes(&mut self, leaves: &[Leaf], classes: ClassSet, limits: &Limits<'_>) -> Vec<Leaf> {
         for (done, some) in leaves.chunks(SOME).enumerate() {
             if limits.is_over(self.boxes()) {
                 break;
@@ -266,7 +288,7 @@ impl<'a> Atlas<'a> {
                 let asked: Vec<(u32, ClassSet)> = some
                     .iter()
                     .filter(|leaf| leaf.0 == sheet)
-                    .map(|&leaf| (leaf.1, self.open(leaf)))
+                    .map(|&leaf| (leaf.1, self.open(leaf) & classes))
                     .filter(|asked| asked.1 != 0)
                     .collect();
                 let proved = self.summitless(sheet, &asked);

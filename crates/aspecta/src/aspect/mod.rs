@@ -36,7 +36,7 @@ pub use aspecta_robot::constraint::Scale;
 pub use certify::certify;
 pub use id::{AspectId, ClassId};
 pub use measure::{Held, Measure, Unit};
-pub use options::Options;
+pub use options::{Options, Purpose};
 pub use refusal::AnalysisError;
 pub use result::{
     Analysis, Aspect, AspectClass, Cell, Count, DetSign, Doubt, DoubtKind, EarlierAspects, EarlierDomain,

@@ -31,4 +31,31 @@ pub struct Options {
     pub modes: Vec<WorkingMode>,
     /// Whether to keep the proof: [`Analysis::certificate`](crate::Analysis::certificate). For up to [`crate::paving::MODES`] working modes.
     pub certificate: bool,
+    /// What the analysis is for.
+    pub purpose: Purpose,
+}
+
+/// What an analysis is for, where its budget does not say how fine boxes are to be.
+///
+/// # Examples
+/// ```
+/// use aspecta::{Control, Options, Purpose, Robot, analyze};
+///
+/// // Counts and areas alone take a twentieth of the boxes that pictures take.
+/// let robot = Robot::resolve("five-bar")?;
+/// let options = Options { purpose: Purpose::Numbers, ..Options::default() };
+/// let analysis = analyze(&robot, &options, &Control::unwatched())?;
+/// assert!(analysis.aspects.certified && analysis.run.boxes < 20_000);
+/// # Ok::<(), aspecta::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Purpose {
+    /// Numbers and pictures: boxes on the boundary are as fine as pictures want them.
+    #[default]
+    Pictures,
+    /// Numbers alone: boxes are as fine as the counts want them, and as leaves little of the measures undecided.
+    Numbers,
+    /// Domains and plans are made of the boxes: as for pictures, and where bounds will not meet at the depth asked for it is not said in which
+    /// of the finest boxes an aspect could hide. Measures are those of whole boxes.
+    Boxes,
 }

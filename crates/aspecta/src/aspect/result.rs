@@ -362,7 +362,7 @@ pub struct AspectClass {
     pub high: Option<usize>,
     /// Certified inner measure, as [`Analysis::measure`] says.
     pub measure: f64,
-    /// Measure of the cells in which membership is undecided.
+    /// Measure of what is undecided: of the cells on the boundary all but what certainly lies on one side.
     pub undecided: f64,
     /// One entry for each of the `low` proved aspects, largest first.
     pub aspects: Vec<Aspect>,

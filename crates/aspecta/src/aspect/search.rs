@@ -1,9 +1,10 @@
 //! The search: refinement where it pays, until the bounds meet or the budget ends.
 
 use super::ascent::Class;
-use super::atlas::{Atlas, Leaf, Limits};
+use super::atlas::{Atlas, Even, Leaf, Limits};
 use super::count::{Counted, count};
-use crate::paving::{Budget, Control, MAX_BOXES, MAX_DEPTH, Progress, Stop};
+use super::options::Purpose;
+use crate::paving::{Budget, Control, MAX_BOXES, MAX_DEPTH, Progress, Shares, Stop};
 use aspecta_robot::work;
 use aspecta_robot::work::Stopwatch;
 use aspecta_robot::{Robot, Window, WorkingMode};
@@ -14,6 +15,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub(super) struct Search<'a> {
     pub atlas: Atlas<'a>,
     pub counted: Vec<(Class, Counted)>,
+    /// What is certain of the undecided boxes of poses.
+    pub shares: Shares,
     pub stop: Stop,
 }
 
@@ -25,7 +28,7 @@ impl<'a> Search<'a> {
         robot: &'a Robot,
         window: &Window,
         modes: &[WorkingMode],
-        budget: &Budget,
+        (budget, purpose): (&Budget, Purpose),
         control: &Control<'_>,
     ) -> Self {
         let start = Stopwatch::start();
@@ -35,23 +38,25 @@ impl<'a> Search<'a> {
             time: budget.seconds.map(|seconds| (start, seconds)),
             rest: AFTER * modes.len() as f64 * PER_BOX / work::thread_count() as f64,
             late: AtomicBool::new(false),
+            names_doubts: purpose != Purpose::Boxes,
             control,
         };
         let atlas = Atlas::new(robot, window, modes, budget, control);
         let paved = atlas.sheets[0].stop;
-        let mut search = Self { atlas, counted: Vec::new(), stop: paved };
+        let mut search = Self { atlas, counted: Vec::new(), shares: Shares::default(), stop: paved };
         let leaves = if search.atlas.is_known { Vec::new() } else { search.atlas.undecided_leaves() };
         let mut afforded = search.atlas.uncover(leaves, &limits);
         let counting = Stopwatch::start();
         search.count_all(&limits);
         limits.rest = limits.rest.max(AFTER * counting.seconds() / search.atlas.boxes() as f64);
         afforded &= search.join(&limits);
-        // Nothing is left to be found by going on as finely as was allowed.
-        let finest = if search.is_exact() { Budget::default().even(window) } else { MAX_DEPTH };
-        let even = search.atlas.even_out(budget.even(window).min(finest), &limits);
+        let even = search.even_out(budget, purpose, &limits);
         afforded &= even.reached;
         if even.changed {
             search.recount(&limits, |_| true);
+        }
+        if purpose != Purpose::Boxes {
+            search.shares.update(&search.atlas.sheets[0], robot);
         }
         search.stop = match () {
             () if search.is_exact() => Stop::Exact,
@@ -61,6 +66,54 @@ impl<'a> Search<'a> {
             () => Stop::Boxes,
         };
         search
+    }
+
+    /// Splits everything undecided to the depth asked for, or else as finely as pictures or measures want it.
+    fn even_out(&mut self, budget: &Budget, purpose: Purpose, limits: &Limits<'_>) -> Even {
+        let window = &self.atlas.sheets[0].window;
+        let (asked, usual) = (budget.finest(window), Budget::default().even(window));
+        if !self.is_exact() {
+            return self.atlas.even_out(asked.unwrap_or(usual), limits);
+        }
+        // Nothing is left to be found by going on as finely as was allowed.
+        let finest = asked.map_or(usual, |asked| asked.min(usual));
+        if purpose != Purpose::Numbers || asked.is_some() {
+            return self.atlas.even_out(finest, limits);
+        }
+        self.measure(limits)
+    }
+
+    /// Splits the boxes that leave most of the measures undecided, until that is little or it has taken many boxes.
+    fn measure(&mut self, limits: &Limits<'_>) -> Even {
+        let counted = self.atlas.boxes();
+        let most = counted + MEASURING.max(counted / 4);
+        let mut even = Even { changed: false, reached: true };
+        loop {
+            let paving = &self.atlas.sheets[0];
+            self.shares.update(paving, self.atlas.robot);
+            let [inside, undecided] = self.shares.measures(paving);
+            let left = most.saturating_sub(self.atlas.boxes()) >> paving.axes.len();
+            if undecided <= FINE * inside || left == 0 {
+                return even;
+            }
+            let mut worst = self.shares.worst(paving);
+            worst.retain(|&node| paving.depth_of(node) < limits.depth);
+            worst.truncate(left as usize);
+            if worst.is_empty() {
+                return even;
+            }
+            let split: Vec<Leaf> = worst.into_iter().map(|node| (0, node)).collect();
+            let is_over = split.len() > limits.affordable(&self.atlas) || limits.is_over(self.atlas.boxes());
+            (limits.control.progress)(Progress {
+                stage: "measuring",
+                done: self.atlas.boxes() - counted,
+                total: most - counted,
+            });
+            even.changed = true;
+            if is_over || self.atlas.split(&split, limits).is_none() {
+                return Even { reached: false, ..even };
+            }
+        }
     }
 
     /// Whether the bounds have met.
@@ -152,6 +205,11 @@ impl<'a> Search<'a> {
         all.filter(|&leaf| self.atlas.depth_of(leaf) < limits.depth).collect()
     }
 }
+
+/// The share of the measures that may be left undecided where boxes are for numbers only.
+const FINE: f64 = 0.003;
+/// As many boxes may be taken to leave no more, or a quarter of those that the counts took.
+const MEASURING: u64 = 1 << 17;
 
 /// How many levels further ways are followed at once.
 const AHEAD: usize = 2;

@@ -22,7 +22,7 @@ pub struct SingularMode {
     pub high: Option<usize>,
     /// Certified inner measure, as [`Analysis::measure`](super::Analysis::measure) says.
     pub measure: f64,
-    /// Measure of the cells in which it is undecided whether the mode exists.
+    /// Measure of where it is undecided whether the mode exists.
     pub undecided: f64,
     /// One entry for each of the `low` proved domains, largest first.
     pub domains: Vec<EarlierDomain>,

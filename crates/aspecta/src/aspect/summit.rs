@@ -38,7 +38,7 @@ mod view;
 mod way;
 
 use super::saddle::no_local_maximum;
-use crate::paving::{ClassSet, Paving};
+use crate::paving::{ClassSet, MODES, Paving};
 use arrayvec::ArrayVec;
 use aspecta_kinematics::constraints::{Scale, Turn};
 use aspecta_robot::Robot;
@@ -92,7 +92,9 @@ fn by_eights<T: Send, const D: usize, const N: usize, const M: usize>(
     look: impl Fn(&Eight<'_, D, N, M>) -> Vec<T> + Sync,
 ) -> Vec<T> {
     let of_eight = |boxes: &[(u32, ClassSet)]| {
-        let view = View::new(robot, paving, scale, &eight(boxes));
+        let eight = eight(boxes);
+        let over = view::over(robot, paving, &eight);
+        let view = View::new(robot, paving, scale, &eight, &over);
         look(&Eight::new(&view, boxes))
     };
     let packs: Vec<_> = asked.chunks(LANES).collect();
@@ -178,7 +180,7 @@ impl<'a, const D: usize, const N: usize, const M: usize> Eight<'a, D, N, M> {
     }
 
     /// The robot with the whole range of h, for each choice of singular legs.
-    fn whole(&self) -> ArrayVec<Way<'a, D, N, M>, 2> {
+    fn whole(&self) -> Vec<Way<'a, D, N, M>> {
         self.view.choices().iter().map(|singular| Way::new(self.view, singular)).collect()
     }
 
@@ -196,26 +198,34 @@ impl<'a, const D: usize, const N: usize, const M: usize> Eight<'a, D, N, M> {
     /// Returns, of the classes asked, those proved to have no summit by one choice of singular legs.
     fn by(&self, way: &Way<'_, D, N, M>, asked: &[ClassSet; LANES]) -> [ClassSet; LANES] {
         let view = &self.view;
-        let frame = |l: usize| (asked[l] != 0).then(|| Frame::new(view, &way.legs, l)).flatten();
-        let frames: [Option<Frame<N, M>>; LANES] = std::array::from_fn(frame);
         let any = asked.iter().fold(0, |any, classes| any | classes);
+        let modes = || view.paving.modes.iter().enumerate();
+        let dets: ArrayVec<Option<Determinant<N, M>>, MODES> = modes()
+            .map(|(m, &mode)| {
+                let is_asked = any >> (2 * m) & 3 != 0 && !view.paving.vanishes_in(m);
+                is_asked.then(|| Determinant::new(view, &way.legs, mode))
+            })
+            .collect();
         let mut proved = [0; LANES];
-        for (m, &mode) in view.paving.modes.iter().enumerate().filter(|(m, _)| any >> (2 * m) & 3 != 0) {
-            let det = (!view.paving.vanishes_in(m)).then(|| Determinant::new(view, &way.legs, mode));
-            for (l, frame) in frames.iter().enumerate().filter(|(l, _)| asked[*l] >> (2 * m) & 3 != 0) {
-                let Some(frame) = frame else { continue };
-                let Some(common) = way.constraints(frame, mode, l) else { continue };
-                let det = det.as_ref().map(|det| det.growth(frame, mode, view.scale, l));
+        for l in (0..LANES).filter(|&l| asked[l] != 0) {
+            let Some(frame) = Frame::new(view, &way.legs, l) else { continue };
+            let mut bounds = way.common(&frame, l);
+            for (m, &mode) in modes().filter(|(m, _)| asked[l] >> (2 * m) & 3 != 0) {
+                way.constrain(&frame, mode, l, &mut bounds);
+                if !bounds.are_all {
+                    continue;
+                }
+                let det = dets[m].as_ref().map(|det| det.growth(&frame, mode, view.scale, l));
                 for (sign, bit) in [(1.0, 1 << (2 * m)), (-1.0, 2 << (2 * m))] {
                     if asked[l] & bit == 0 {
                         continue;
                     }
-                    let known: Vec<Turn> = match common.parted.is_empty() {
+                    let known: Vec<Turn> = match bounds.parted.is_empty() {
                         true => Vec::new(),
                         false => Turn::known(view.robot, mode, if det.is_some() { sign as i8 } else { 0 })
                             .collect(),
                     };
-                    if can_climb(&common, det.map(|det| det.signed(sign)).as_ref(), &known) {
+                    if can_climb(&bounds, det.map(|det| det.signed(sign)).as_ref(), &known) {
                         proved[l] |= bit;
                     }
                 }
@@ -238,7 +248,11 @@ impl<'a, const D: usize, const N: usize, const M: usize> Eight<'a, D, N, M> {
             return 0;
         }
         let Some(frame) = Frame::new(view, &way.legs, lane) else { return 0 };
-        let Some(all) = way.constraints(&frame, mode, lane) else { return 0 };
+        let mut all = way.common(&frame, lane);
+        way.constrain(&frame, mode, lane, &mut all);
+        if !all.are_all {
+            return 0;
+        }
         let parted = all.parted.iter().flatten().flatten().map(|side| &side.growth);
         let least = all.all.iter().chain(parted).fold(f64::INFINITY, |least, g| least.min(g.value.lo));
         let det = Determinant::new(view, &way.legs, mode).growth(&frame, mode, view.scale, lane).value;

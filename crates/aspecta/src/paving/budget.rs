@@ -74,10 +74,10 @@ impl Budget {
         }
     }
 
-    /// The budget of the even paving that a search starts with: depth 16 on a line, 9 in the plane and 5 in space, or what is
+    /// The budget of the even paving that a search starts with: depth 10 on a line, 7 in the plane and 5 in space, or what is
     /// asked for if that is less.
     pub fn start(&self, window: &Window) -> Self {
-        let usual = [16, 9, 5][window.axes().len().clamp(1, 3) - 1];
+        let usual = [10, 7, 5][window.axes().len().clamp(1, 3) - 1];
         Self { depth: Some(self.finest(window).map_or(usual, |depth| depth.min(usual))), ..*self }
     }
 

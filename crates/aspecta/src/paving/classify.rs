@@ -2,6 +2,7 @@
 
 use super::ClassSet;
 use super::MODES;
+use super::share::{Known, Part, Share};
 use super::tree::{Node, Paving};
 use arrayvec::ArrayVec;
 use aspecta_kinematics::chart::Chart;
@@ -104,6 +105,38 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
     /// Classifies eight boxes given by their corners; each inherits what its parent proved and has
     /// `inside`, `undecided` and `closed` set.
     pub(super) fn classify(&self, boxes: &mut [Node; LANES]) {
+        let (placement, legs) = self.over(boxes);
+        self.decide(boxes, &placement, &legs);
+    }
+
+    /// How much of each of eight boxes certainly lies in each class that is undecided there, and how much certainly does not.
+    pub(super) fn shares(&self, boxes: &[Node; LANES]) -> [[Share; 2 * MODES]; LANES] {
+        let (placement, legs) = self.over(boxes);
+        let mut shares = [[Share::default(); 2 * MODES]; LANES];
+        let wanted = boxes.iter().fold(0, |wanted, node| wanted | modes_of(node.undecided));
+        let (closes, out) = closing::<Part, D, N, M>(&legs);
+        let heights: [[_; 2]; N] = std::array::from_fn(|j| legs[j].heights());
+        let known = self.existence(wanted, closes, (&placement, &legs, &heights));
+        self.signs(wanted, boxes, (&placement, &legs, &heights), |m, [positive, negative]: [Part; 2]| {
+            let (kept, broken) = (known.kept[m], known.broken[m].or(out));
+            for (class, [with, against]) in
+                [[positive, negative], [negative, positive]].into_iter().enumerate()
+            {
+                let (inside, outside) = (kept.and(with), broken.or(against));
+                for (l, shares) in shares.iter_mut().enumerate() {
+                    shares[2 * m + class] =
+                        Share { inside: inside.0[l] as f32, outside: outside.0[l] as f32 };
+                }
+            }
+        });
+        shares
+    }
+
+    /// The robot over eight boxes.
+    fn over(
+        &self,
+        boxes: &[Node; LANES],
+    ) -> (Placement<Slope<Pack, M>, D>, [LegClosure<Slope<Pack, M>, D>; N]) {
         let slabs: [[Slab; LANES]; N] =
             std::array::from_fn(|k| std::array::from_fn(|l| self.slab(k, &boxes[l].corner)));
         let pack = |k: usize, f: fn(&Slab) -> Interval| Pack::from_fn(|l| f(&slabs[k][l]));
@@ -116,12 +149,11 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
             f
         };
         let y: [_; N] = each!(|k| function(k, pack(k, |s| s.range), pack(k, |s| s.middle), None));
-        let (placement, legs) = self.chart.at::<Slope<Pack, M>, D, N>(self.robot, &y, |k| {
+        self.chart.at::<Slope<Pack, M>, D, N>(self.robot, &y, |k| {
             let (sin, cos) = (pack(k, |s| s.turn.0), pack(k, |s| s.turn.1));
             let (sin_c, cos_c) = (pack(k, |s| s.turn_middle.0), pack(k, |s| s.turn_middle.1));
             (function(k, sin, sin_c, Some(cos)), function(k, cos, cos_c, Some(-sin)))
-        });
-        self.decide(boxes, &placement, &legs);
+        })
     }
 
     fn decide(
@@ -130,17 +162,7 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
         placement: &Placement<Slope<Pack, M>, D>,
         legs: &[LegClosure<Slope<Pack, M>, D>; N],
     ) {
-        let mut closes = [true; LANES];
-        let mut out = [false; LANES];
-        for leg in legs.iter().filter(|leg| leg.fold.is_none()) {
-            let reach = leg.closure.reach.tightened().range;
-            let (positive, negative) = (reach.positive(), reach.negative());
-            for l in 0..LANES {
-                // A strut closes everywhere (its H is q², zero only on a set that separates nothing).
-                closes[l] &= positive[l];
-                out[l] |= negative[l];
-            }
-        }
+        let (closes, out) = closing::<Mask, D, N, M>(legs);
         let mut wanted: u8 = 0;
         for (node, out) in boxes.iter_mut().zip(out) {
             if out {
@@ -166,7 +188,23 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
             }
         }
         let heights: [[_; 2]; N] = std::array::from_fn(|j| legs[j].heights());
-        let mut known = ByMode { kept: [closes; MODES], broken: [[false; LANES]; MODES] };
+        let known = self.existence(wanted, closes, (placement, legs, &heights));
+        let undecided = *boxes;
+        self.signs(wanted, &undecided, (placement, legs, &heights), |m, [positive, negative]: [Mask; 2]| {
+            for l in 0..LANES {
+                boxes[l].settle(m, known.kept[m][l], known.broken[m][l], positive[l], negative[l]);
+            }
+        });
+    }
+
+    /// How far each wanted mode exists, where its legs close and in spite of its limits.
+    fn existence<K: Known>(
+        &self,
+        wanted: u8,
+        closes: K,
+        (placement, legs, heights): OfRobot<'_, D, N, M>,
+    ) -> ByMode<K> {
+        let mut known = ByMode { kept: [closes; MODES], broken: [K::NOWHERE; MODES] };
         for constraint in Constraint::of(self.robot) {
             match constraint.kind() {
                 // Looked at in poses already; in a leg's own coordinates being in the posture is one of its
@@ -178,8 +216,7 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
                     known.note(self.modes, wanted, LegSet::of(j), in_posture);
                 }
                 Kind::Limit => {
-                    let at =
-                        |mode| Configuration { robot: self.robot, placement, legs, heights: &heights, mode };
+                    let at = |mode| Configuration { robot: self.robot, placement, legs, heights, mode };
                     let margin = |mode| match constraint {
                         // Most bodies are far apart.
                         Constraint::Apart(_, k) => {
@@ -198,42 +235,63 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
                 Kind::Parallel => {}
             }
         }
+        known
+    }
+
+    /// Visits each wanted mode with how far det A is positive in it, and how far negative.
+    fn signs<K: Known>(
+        &self,
+        wanted: u8,
+        boxes: &[Node; LANES],
+        (_, legs, heights): OfRobot<'_, D, N, M>,
+        mut visit: impl FnMut(usize, [K; 2]),
+    ) {
         let rows = ModalRows::parted(self.robot, self.twins, legs, each!(|j| heights[j][0]));
         let of_one_sign = wanted & self.known;
         for m in (0..self.modes.len()).filter(|m| of_one_sign >> m & 1 == 1) {
-            for (l, node) in boxes.iter_mut().enumerate() {
-                let sign = node.undecided >> (2 * m);
-                node.settle(m, known.kept[m][l], known.broken[m][l], sign & 1 == 1, sign & 2 == 2);
-            }
+            let sign = |bit: ClassSet| {
+                K::where_all(std::array::from_fn(|l| boxes[l].undecided >> (2 * m) & bit != 0))
+            };
+            visit(m, [sign(1), sign(2)]);
         }
         rows.dets(self.modes, wanted & !self.known, |m, det| {
-            let det = det.tightened().range;
-            let (mut positive, mut negative) = (det.positive(), det.negative());
-            let open = |l: usize| boxes[l].undecided >> (2 * m) & 3 != 0 && !(positive[l] || negative[l]);
-            if N > 3 && (0..LANES).any(open) {
-                let det = rows.conditioned_det(self.modes[m]);
-                let (also_positive, also_negative) = (det.positive(), det.negative());
-                for l in 0..LANES {
-                    positive[l] |= also_positive[l];
-                    negative[l] |= also_negative[l];
-                }
+            let [mut positive, mut negative] = K::signs(&det);
+            let open = |l: usize| boxes[l].undecided >> (2 * m) & 3 != 0;
+            if N > 3 && (0..LANES).any(|l| open(l) && !K::is_all(&positive, l) && !K::is_all(&negative, l)) {
+                let [also_positive, also_negative] = K::signs(&rows.conditioned_det(self.modes[m]));
+                (positive, negative) = (positive.or(also_positive), negative.or(also_negative));
             }
-            for l in 0..LANES {
-                boxes[l].settle(m, known.kept[m][l], known.broken[m][l], positive[l], negative[l]);
-            }
+            visit(m, [positive, negative]);
         });
     }
 }
 
-/// The proofs of the existence of each mode, eight boxes at once.
-struct ByMode {
-    /// All legs close and all limits are kept.
-    kept: [Mask; MODES],
-    /// Some limit is broken.
-    broken: [Mask; MODES],
+/// The placement of the platform, the legs and their heights over eight boxes.
+type OfRobot<'a, const D: usize, const N: usize, const M: usize> =
+    (&'a Placement<Slope<Pack, M>, D>, &'a [LegClosure<Slope<Pack, M>, D>; N], &'a [[Slope<Pack, M>; 2]; N]);
+
+/// How far all legs close, and how far one of them surely does not.
+fn closing<K: Known, const D: usize, const N: usize, const M: usize>(
+    legs: &[LegClosure<Slope<Pack, M>, D>; N],
+) -> (K, K) {
+    let mut all = (K::EVERYWHERE, K::NOWHERE);
+    // A strut closes everywhere (its H is q², zero only on a set that separates nothing).
+    for leg in legs.iter().filter(|leg| leg.fold.is_none()) {
+        let [positive, negative] = K::signs(&leg.closure.reach);
+        all = (all.0.and(positive), all.1.or(negative));
+    }
+    all
 }
 
-impl ByMode {
+/// What is proved of the existence of each mode, eight boxes at once.
+struct ByMode<K> {
+    /// How far all legs close and all limits are kept.
+    kept: [K; MODES],
+    /// How far some limit is broken.
+    broken: [K; MODES],
+}
+
+impl<K> ByMode<K> {
     /// Takes account of a function that is positive within a limit, for the modes wanted; it is evaluated
     /// once for each choice of postures of the legs on which it depends.
     fn note<const M: usize>(
@@ -242,19 +300,18 @@ impl ByMode {
         wanted: u8,
         legs: LegSet,
         function: impl Fn(WorkingMode) -> Slope<Pack, M>,
-    ) {
+    ) where
+        K: Known,
+    {
         let mut left = wanted;
         while left != 0 {
             let mode = modes[left.trailing_zeros() as usize];
-            let range = function(mode).tightened().range;
-            let (positive, negative) = (range.positive(), range.negative());
+            let [positive, negative] = K::signs(&function(mode));
             let now = left;
             for m in (0..modes.len()).filter(|&m| now >> m & 1 == 1 && legs.are_alike(mode, modes[m])) {
                 left &= !(1 << m);
-                for l in 0..LANES {
-                    self.kept[m][l] &= positive[l];
-                    self.broken[m][l] |= negative[l];
-                }
+                self.kept[m] = self.kept[m].and(positive);
+                self.broken[m] = self.broken[m].or(negative);
             }
         }
     }

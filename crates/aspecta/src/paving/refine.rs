@@ -13,7 +13,7 @@ use aspecta_robot::work::Stopwatch;
 use aspecta_robot::{Robot, Window};
 
 /// Parents one task subdivides.
-const CHUNK: usize = 256;
+pub(super) const CHUNK: usize = 256;
 
 /// Runs a function generic over (D, N, M) — the dimension of space, the degrees of freedom, the coordinates
 /// that vary.

@@ -3,7 +3,7 @@
 use crate::obstacles::{LINKS, Point, analyzed, disc, exact, five_bar, is_accepted, joints, with};
 use crate::random::Random;
 use aspecta::Kinematics;
-use aspecta::aspect::{Options, analyze};
+use aspecta::aspect::{Options, Purpose, analyze};
 use aspecta::kinematics::constraints::Constraint;
 use aspecta::motion::{PathOptions, check_poses};
 use aspecta::num::Interval;
@@ -48,7 +48,7 @@ fn thick_links_leave_12_aspects() {
     assert_eq!(exact(&five_bar(ANCHORS, LINKS, &radius(0.7))), 12);
     assert_eq!(exact(&five_bar(ANCHORS, LINKS, "[bodies]\nradius = 0\nclearance = 1.4\n")), 12);
     let modes = vec!["+-".parse().unwrap()];
-    let options = Options { certificate: true, modes, ..Options::default() };
+    let options = Options { certificate: true, modes, purpose: Purpose::Numbers, ..Options::default() };
     let robot = five_bar(ANCHORS, LINKS, &radius(0.7));
     let analysis = analyze(&robot, &options, &Control::unwatched()).unwrap();
     assert!(analysis.aspects.certified && is_accepted(analysis.certificate.as_ref().unwrap()));
@@ -381,7 +381,7 @@ fn paths_on_which_links_graze() {
 #[test]
 fn forged_certificates_are_refused() {
     let modes = vec!["+-".parse().unwrap()];
-    let options = Options { certificate: true, modes, ..Options::default() };
+    let options = Options { certificate: true, modes, purpose: Purpose::Numbers, ..Options::default() };
     let random = &mut Random(8);
     for thickness in [0.0, 0.7] {
         let robot = five_bar(ANCHORS, LINKS, &radius(thickness));

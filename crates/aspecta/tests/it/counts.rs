@@ -6,7 +6,7 @@ use crate::random::Random;
 use crate::sweep::{Finesse, FiveBar, MODES, Table};
 use aspecta::Kinematics;
 use aspecta::aspect::{
-    Analysis, AnalysisError, AspectClass, ClassId, DetSign, Options, Place, Sample, analyze,
+    Analysis, AnalysisError, AspectClass, ClassId, DetSign, Options, Place, Purpose, Sample, analyze,
 };
 use aspecta::certificate::Claim;
 use aspecta::paving::{Budget, Control, Stop};
@@ -87,7 +87,8 @@ fn robots_of_the_catalogue() {
 
 /// So many, and the certificate, checked, proves it.
 fn assert_verified(count: usize, name: &str, options: Options) {
-    let analysis = assert_exactly(count, name, &Options { certificate: true, ..options });
+    let analysis =
+        assert_exactly(count, name, &Options { certificate: true, purpose: Purpose::Numbers, ..options });
     let verdict = verify(&analysis.certificate.unwrap(), &Control::unwatched());
     assert!(verdict.is_verified(), "{name}: {:?}", verdict.faults);
     let proved: (usize, Option<usize>) = (
@@ -181,7 +182,10 @@ fn a_spherical_robot_whose_first_leg_folds() {
 #[test]
 fn the_certificate_of_a_spherical_robot_is_verified() {
     let modes = vec!["---".parse().unwrap()];
-    let analysis = analyzed(&sphere(0), &Options { modes, certificate: true, ..Options::default() });
+    let analysis = analyzed(
+        &sphere(0),
+        &Options { modes, certificate: true, purpose: Purpose::Numbers, ..Options::default() },
+    );
     let verdict = verify(&analysis.certificate.unwrap(), &Control::unwatched());
     assert!(verdict.is_verified(), "{:?}", verdict.faults);
     assert!(verdict.classes.iter().all(|class| class.proved == Claim { low: 2, high: Some(2) }));

@@ -10,7 +10,7 @@ use std::f64::consts::FRAC_PI_2;
 
 fn analyzed(robot: &Robot, fix: &[(usize, f64)], modes: &[&str], budget: Budget) -> Analysis {
     let modes = modes.iter().map(|mode| mode.parse().unwrap()).collect();
-    let options = Options { budget, fix: fix.to_vec(), modes, certificate: false };
+    let options = Options { budget, fix: fix.to_vec(), modes, ..Options::default() };
     analyze(robot, &options, &Control::unwatched()).unwrap()
 }
 

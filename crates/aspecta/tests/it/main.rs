@@ -20,6 +20,7 @@ mod free_body;
 mod joint_ranges;
 mod many_limits;
 mod maps;
+mod measures;
 mod motion;
 mod no_c;
 mod obstacles;

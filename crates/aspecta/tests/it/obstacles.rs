@@ -2,7 +2,7 @@
 
 use crate::random::Random;
 use aspecta::Kinematics;
-use aspecta::aspect::{Analysis, Options, analyze};
+use aspecta::aspect::{Analysis, Options, Purpose, analyze};
 use aspecta::certificate::Certificate;
 use aspecta::kinematics::constraints::Constraint;
 use aspecta::motion::{PathOptions, check_poses};
@@ -37,7 +37,7 @@ pub fn five_bar(anchors: [[f64; 2]; 2], links: [[f64; 2]; 2], obstacles: &str) -
 pub const LINKS: [[f64; 2]; 2] = [[8.0, 5.0], [5.0, 8.0]];
 
 pub fn analyzed(robot: &Robot) -> Analysis {
-    let options = Options { certificate: true, ..Options::default() };
+    let options = Options { certificate: true, purpose: Purpose::Numbers, ..Options::default() };
     analyze(robot, &options, &Control::unwatched()).unwrap()
 }
 
@@ -288,8 +288,13 @@ fn slices_of_bodies_are_exact() {
         ("3-rpr", disc([8.0, 4.0], 0.7), vec![(2, 0.2)], "---"),
     ] {
         let robot = with(name, &obstacles);
-        let options =
-            Options { fix, modes: vec![mode.parse().unwrap()], certificate: true, ..Options::default() };
+        let options = Options {
+            fix,
+            modes: vec![mode.parse().unwrap()],
+            certificate: true,
+            purpose: Purpose::Numbers,
+            ..Options::default()
+        };
         let analysis = analyze(&robot, &options, &Control::unwatched()).unwrap();
         assert!(analysis.aspects.certified, "{name}: {:?} {:?}", analysis.aspects, analysis.doubts);
         assert!(is_accepted(analysis.certificate.as_ref().unwrap()), "{name}");
@@ -311,7 +316,7 @@ fn forged_certificates_are_refused_at_length() {
 fn forge(faults: usize) {
     let robot = five_bar([[0.0, 0.0], [9.0, 0.0]], LINKS, &disc([4.5, 0.0], 1.0));
     let modes = vec!["+-".parse().unwrap()];
-    let options = Options { certificate: true, modes, ..Options::default() };
+    let options = Options { certificate: true, modes, purpose: Purpose::Numbers, ..Options::default() };
     let certificate = analyze(&robot, &options, &Control::unwatched()).unwrap().certificate.unwrap();
     let random = &mut Random(8);
     for case in 0..faults {

@@ -2,7 +2,7 @@
 
 use crate::random::Random;
 use aspecta::Kinematics;
-use aspecta::aspect::{Analysis, Options, analyze};
+use aspecta::aspect::{Analysis, Options, Purpose, analyze};
 use aspecta::kinematics::constraints::Constraint;
 use aspecta::motion::{Bound, Obstacle, PathOptions, check_poses};
 use aspecta::num::Interval;
@@ -23,7 +23,13 @@ fn between(legs: [usize; 2], min: f64, max: f64) -> RodAngle {
 /// The analysis of a robot, or of some of its modes (none: all), the certificate of which holds.
 fn analyzed(robot: &Robot, fix: &[(usize, f64)], modes: &[&str]) -> Analysis {
     let modes = modes.iter().map(|mode| mode.parse().unwrap()).collect();
-    let options = Options { fix: fix.to_vec(), modes, certificate: true, ..Options::default() };
+    let options = Options {
+        fix: fix.to_vec(),
+        modes,
+        certificate: true,
+        purpose: Purpose::Numbers,
+        ..Options::default()
+    };
     let analysis = analyze(robot, &options, &Control::unwatched()).unwrap();
     let verdict = verify(analysis.certificate.as_ref().unwrap(), &Control::unwatched());
     assert!(verdict.is_verified(), "{}: {:?}", robot.name, verdict.faults);

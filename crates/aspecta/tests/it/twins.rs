@@ -2,7 +2,7 @@
 
 use crate::random::Random;
 use aspecta::Kinematics;
-use aspecta::aspect::{Analysis, Options, SingularMode, analyze};
+use aspecta::aspect::{Analysis, Options, Purpose, SingularMode, analyze};
 use aspecta::num::{Interval, Scalar};
 use aspecta::paving::{Budget, Control};
 use aspecta::robot::{Leg, LegIndex, Limit, Platform, Robot, RodAngle, catalogue};
@@ -19,7 +19,13 @@ fn coaxial(crank: f64, rod: f64) -> Robot {
 fn analyzed(robot: &Robot, fix: &[(usize, f64)]) -> Analysis {
     let modes = robot.working_modes().len();
     let budget = Budget { boxes: Some(2_000_000), ..Budget::default() };
-    let options = Options { budget, fix: fix.to_vec(), certificate: modes <= 8, ..Options::default() };
+    let options = Options {
+        budget,
+        fix: fix.to_vec(),
+        certificate: modes <= 8,
+        purpose: Purpose::Numbers,
+        ..Options::default()
+    };
     let analysis = analyze(robot, &options, &Control::unwatched()).unwrap();
     if let Some(certificate) = &analysis.certificate {
         let verdict = verify(certificate, &Control::unwatched());

@@ -22,7 +22,7 @@ impl<const N: usize, const M: usize> Determinant<N, M> {
     /// With the legs in a range of h each.
     pub(super) fn new<const D: usize>(
         view: &View<'_, D, N, M>,
-        part: &[LegPart<N, M>; N],
+        part: &[LegPart<N, M>],
         mode: WorkingMode,
     ) -> Self {
         let posture = |j: usize| usize::from(mode.sign(j) < 0);
@@ -30,8 +30,9 @@ impl<const N: usize, const M: usize> Determinant<N, M> {
             std::array::from_fn(|j| each!(|i| part[j].rows[posture(j)][i].value));
         // det A = det(A Z) / det Z, for the derivatives too.
         let by = (N > 3).then(|| Conditioner::new(&rows));
-        let conditioned = |row: [Slope<Pack, M>; N]| by.as_ref().map_or(row, |by| by.row(&row));
-        rows = rows.map(conditioned);
+        if let Some(by) = &by {
+            rows = rows.map(|row| by.row(&row));
+        }
         let mut minors = cofactors(&rows);
         for minor in minors.as_flattened_mut() {
             *minor = minor.tightened();
@@ -40,17 +41,16 @@ impl<const N: usize, const M: usize> Determinant<N, M> {
         for i in 1..N {
             det = det + rows[0][i] * minors[0][i];
         }
-        let partial = |j: usize, row: [Slope<Pack, M>; N]| {
-            let row = conditioned(row);
-            let mut sum = minors[j][0] * row[0];
-            for i in 1..N {
-                sum = sum + minors[j][i] * row[i];
-            }
-            sum
+        let expanded = |j: usize, row: [&Slope<Pack, M>; N]| {
+            (1..N).fold(minors[j][0] * *row[0], |sum, i| sum + minors[j][i] * *row[i])
+        };
+        let partial = |j: usize, row: [&Slope<Pack, M>; N]| match &by {
+            Some(by) => expanded(j, by.row(&row.map(|x| *x)).each_ref()),
+            None => expanded(j, row),
         };
         let range = |f: Slope<Pack, M>| by.as_ref().map_or(range(f), |by| range(f) / by.det);
         let gradient: [Pack; M] = each!(|a| {
-            let along = |j: usize| each!(|i| part[j].rows[posture(j)][i].gradient[a]);
+            let along = |j: usize| std::array::from_fn(|i| &part[j].rows[posture(j)][i].gradient[a]);
             let mut sum = partial(0, along(0));
             for j in 1..N {
                 sum = sum + partial(j, along(j));
@@ -67,7 +67,7 @@ impl<const N: usize, const M: usize> Determinant<N, M> {
             value: Pack::select(&whole, value.meet(around), value),
             gradient,
             own: each!(|j| match view.rooted[j] && !view.parted[j] {
-                true => range(partial(j, each!(|i| view.swing[j][i].value))),
+                true => range(partial(j, std::array::from_fn(|i| &view.rows[j].swing[i].value))),
                 false => Pack::zero(),
             }),
         }

@@ -19,7 +19,7 @@ impl<const N: usize, const M: usize> Frame<N, M> {
     /// `None` if more legs are singular than there are coordinates.
     pub(super) fn new<const D: usize>(
         view: &View<'_, D, N, M>,
-        legs: &[LegPart<N, M>; N],
+        legs: &[LegPart<N, M>],
         lane: usize,
     ) -> Option<Self> {
         let singular: [bool; N] = std::array::from_fn(|j| legs[j].singular[lane]);

@@ -1,7 +1,7 @@
 //! One leg over eight boxes, with its h in a given range.
 
 use super::form::Form;
-use super::view::View;
+use super::view::{Row, View};
 use aspecta_robot::num::{Interval, Mask, Pack, Scalar, Slope, each};
 
 /// The part of a leg's functions that depends on the range of h.
@@ -22,18 +22,18 @@ impl<const N: usize, const M: usize> LegPart<N, M> {
         height: Pack,
         singular: Mask,
     ) -> Self {
-        let fixed = view.fixed[j];
+        let Row { fixed, swing, .. } = &view.rows[j];
         let rows = if view.rooted[j] {
             let h = if view.parted[j] {
                 Form::constant(Interval::point(1.0))
             } else {
                 view.height(j, height, &singular)
             };
-            let swing: [Form<M>; N] = each!(|k| h * view.swing[j][k]);
+            let swing: [Form<M>; N] = each!(|k| h * swing[k]);
             let up = each!(|k| (fixed[k] + swing[k]).tightened());
             [up, each!(|k| (fixed[k] - swing[k]).tightened())]
         } else {
-            [fixed; 2]
+            [*fixed; 2]
         };
         Self { rows, height, singular }
     }
@@ -42,13 +42,13 @@ impl<const N: usize, const M: usize> LegPart<N, M> {
 impl<const D: usize, const N: usize, const M: usize> View<'_, D, N, M> {
     /// h of leg j: √H, or, where it counts as singular, a number in `height`.
     fn height(&self, j: usize, height: Pack, singular: &Mask) -> Form<M> {
-        let smooth = self.smooth[j];
+        let smooth = &self.rows[j].smooth;
         // H need not be above zero at the centre: h's own slopes are of no use near a singularity.
         let own = match height == self.heights[j] {
             true => smooth.value,
             false => Slope { range: height, centre: height, slope: [Pack::zero(); M] },
         };
-        select(singular, &Form::fixed(own), &smooth)
+        select(singular, &Form::fixed(own), smooth)
     }
 
     /// s h of leg j in both postures.

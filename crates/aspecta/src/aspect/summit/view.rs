@@ -2,6 +2,7 @@
 
 use super::form::{Field, Form};
 use crate::paving::Paving;
+use arrayvec::ArrayVec;
 use aspecta_kinematics::chart::Coordinates;
 use aspecta_kinematics::constraints::Scale;
 use aspecta_kinematics::modal::LegClosure;
@@ -10,23 +11,46 @@ use aspecta_robot::num::{Interval, LANES, Mask, Pack, Scalar, Slope, each};
 use aspecta_robot::{LegIndex, Robot};
 use std::cell::OnceCell;
 
+/// The placement and the legs over eight boxes: some hundred kilobytes, which are not moved about.
+pub(super) type Over<const D: usize, const N: usize, const M: usize> =
+    (Placement<Form<M>, D>, [LegClosure<Form<M>, D>; N]);
+
+/// Evaluates the robot over eight boxes.
+pub(super) fn over<const D: usize, const N: usize, const M: usize>(
+    robot: &Robot,
+    paving: &Paving,
+    boxes: &[u32; LANES],
+) -> Over<D, N, M> {
+    let cells = boxes.map(|node| paving.bounds(node));
+    let y: [Form<M>; N] = std::array::from_fn(|k| match paving.axes.iter().position(|&axis| axis == k) {
+        None => Form::constant(Interval::point(paving.window.ranges[k].0)),
+        Some(a) => {
+            let extent = cells.map(|(lo, hi)| Interval::new(lo[a], hi[a]));
+            let middle = Pack::from_fn(|l| Interval::point(extent[l].mid()));
+            let extent = Pack::from_fn(|l| extent[l]);
+            let r = Pack::from_fn(|l| Interval::point((extent.lane(l) - middle.lane(l)).magnitude()));
+            let mut y = Form::fixed(Slope::variable(extent, middle, r, a));
+            y.gradient[a] = Slope { range: r, centre: r, slope: [Pack::zero(); M] };
+            y
+        }
+    });
+    paving.chart.at::<Form<M>, D, N>(robot, &y, |k| y[k].sin_cos())
+}
+
 /// The robot over eight boxes.
 pub(super) struct View<'a, const D: usize, const N: usize, const M: usize> {
     pub robot: &'a Robot,
     pub paving: &'a Paving,
     pub scale: &'a Scale,
     pub boxes: [u32; LANES],
-    pub placement: Placement<Form<M>, D>,
-    pub legs: [LegClosure<Form<M>, D>; N],
+    pub placement: &'a Placement<Form<M>, D>,
+    pub legs: &'a [LegClosure<Form<M>, D>; N],
     /// H_j and its gradient.
     pub reach: [Field<M>; N],
     /// The range of h_j.
     pub heights: [Pack; N],
-    /// h_j = √H_j, where that may be differentiated.
-    pub smooth: [Form<M>; N],
-    /// The parts of the rows of A: fixed + s h swing.
-    pub fixed: [[Form<M>; N]; N],
-    pub swing: [[Form<M>; N]; N],
+    /// The rows of A.
+    pub rows: Vec<Row<N, M>>,
     /// Which legs have a serial singularity with a root in it.
     pub rooted: [bool; N],
     /// For a leg that is one with an earlier one, that: both have the same h.
@@ -39,26 +63,27 @@ pub(super) struct View<'a, const D: usize, const N: usize, const M: usize> {
     plain: OnceCell<Plain<D, N, M>>,
 }
 
+/// A leg's row of A.
+pub(super) struct Row<const N: usize, const M: usize> {
+    /// h = √H, where that may be differentiated.
+    pub smooth: Form<M>,
+    /// The parts of the row: fixed + s h swing.
+    pub fixed: [Form<M>; N],
+    pub swing: [Form<M>; N],
+}
+
 /// Centred forms over eight boxes.
 type Plain<const D: usize, const N: usize, const M: usize> =
     (Placement<Slope<Pack, M>, D>, [LegClosure<Slope<Pack, M>, D>; N]);
 
 impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
-    pub(super) fn new(robot: &'a Robot, paving: &'a Paving, scale: &'a Scale, boxes: &[u32; LANES]) -> Self {
-        let cells = boxes.map(|node| paving.bounds(node));
-        let y: [Form<M>; N] = std::array::from_fn(|k| match paving.axes.iter().position(|&axis| axis == k) {
-            None => Form::constant(Interval::point(paving.window.ranges[k].0)),
-            Some(a) => {
-                let extent = cells.map(|(lo, hi)| Interval::new(lo[a], hi[a]));
-                let middle = Pack::from_fn(|l| Interval::point(extent[l].mid()));
-                let extent = Pack::from_fn(|l| extent[l]);
-                let r = Pack::from_fn(|l| Interval::point((extent.lane(l) - middle.lane(l)).magnitude()));
-                let mut y = Form::fixed(Slope::variable(extent, middle, r, a));
-                y.gradient[a] = Slope { range: r, centre: r, slope: [Pack::zero(); M] };
-                y
-            }
-        });
-        let (placement, legs) = paving.chart.at::<Form<M>, D, N>(robot, &y, |k| y[k].sin_cos());
+    pub(super) fn new(
+        robot: &'a Robot,
+        paving: &'a Paving,
+        scale: &'a Scale,
+        boxes: &[u32; LANES],
+        (placement, legs): &'a Over<D, N, M>,
+    ) -> Self {
         let reach: [Field<M>; N] = std::array::from_fn(|j| Field::of(&legs[j].closure.reach));
         let mut view = Self {
             robot,
@@ -72,9 +97,7 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
             legs,
             heights: each!(|j| reach[j].value.sqrt()),
             reach,
-            smooth: [Form::zero(); N],
-            fixed: [[Form::zero(); N]; N],
-            swing: [[Form::zero(); N]; N],
+            rows: Vec::new(),
             usable: [true; LANES],
             plain: OnceCell::new(),
         };
@@ -82,12 +105,16 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
             view.twin_of[second] = Some(first);
             (view.parted[first], view.parted[second]) = (true, true);
         }
-        (0..N).for_each(|j| view.set_rows(j));
+        view.rows = (0..N).map(|j| view.row(j)).collect();
+        for weight in (0..N).filter_map(|j| view.weight(j)).collect::<ArrayVec<_, N>>() {
+            let positive = weight.value.range.positive();
+            (0..LANES).for_each(|l| view.usable[l] &= positive[l]);
+        }
         // One H, in one enclosure: which of them count as singular must not differ, though their frames may.
         for (second, first) in (0..N).filter_map(|j| Some((j, view.twin_of[j]?))) {
             view.reach[second] = view.reach[first];
             view.heights[second] = view.heights[first];
-            view.smooth[second] = view.smooth[first];
+            view.rows[second].smooth = view.rows[first].smooth;
         }
         view
     }
@@ -100,17 +127,19 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
         })
     }
 
+    /// What row j of A has to be divided by, where that varies.
+    fn weight(&self, j: usize) -> Option<Form<M>> {
+        let is_weighted = self.legs[j].is_weighted(&self.robot.legs[j]) && self.twin_of[j].is_none();
+        is_weighted.then(|| self.legs[j].closure.weight.tightened())
+    }
+
     /// Row j of A itself, not times the weight: what varies least is enclosed best. What stands in place of the row of a leg that is one with
     /// an earlier one is a polynomial, times the weight.
-    fn set_rows(&mut self, j: usize) {
+    fn row(&self, j: usize) -> Row<N, M> {
         let (robot, leg) = (self.robot, &self.robot.legs[j]);
         let LegClosure { closure, arm, .. } = &self.legs[j];
-        let inverse = (self.legs[j].is_weighted(leg) && self.twin_of[j].is_none()).then(|| {
-            let weight = closure.weight.tightened();
-            let positive = weight.value.range.positive();
-            (0..LANES).for_each(|l| self.usable[l] &= positive[l]);
-            (Form::constant(Interval::point(1.0)) / weight).tightened()
-        });
+        let inverse =
+            self.weight(j).map(|weight| (Form::constant(Interval::point(1.0)) / weight).tightened());
         let row = |part: &[Form<M>; D]| -> [Form<M>; N] {
             let part = match &inverse {
                 Some(inverse) => &each!(|k| (part[k].tightened() * *inverse).tightened()),
@@ -119,14 +148,11 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
             let row: [Form<M>; N] = wrench(robot.platform, &out_of_frame(leg, part), arm);
             each!(|k| row[k].tightened())
         };
-        if self.twin_of[j].is_none() {
-            self.fixed[j] = row(&closure.fixed);
-        }
-        if self.rooted[j] {
-            if !self.parted[j] || self.twin_of[j].is_some() {
-                self.swing[j] = row(&closure.swing);
-            }
-            self.smooth[j] = closure.reach.tightened().sqrt();
+        let (zero, has_twin) = ([Form::zero(); N], self.twin_of[j].is_some());
+        Row {
+            smooth: if self.rooted[j] { closure.reach.tightened().sqrt() } else { Form::zero() },
+            fixed: if has_twin { zero } else { row(&closure.fixed) },
+            swing: if self.rooted[j] && (!self.parted[j] || has_twin) { row(&closure.swing) } else { zero },
         }
     }
 }

@@ -18,7 +18,7 @@ use std::cell::LazyCell;
 /// The legs, and all that bounds the aspects but det A.
 pub(super) struct Way<'a, const D: usize, const N: usize, const M: usize> {
     view: &'a View<'a, D, N, M>,
-    pub legs: [LegPart<N, M>; N],
+    pub legs: Vec<LegPart<N, M>>,
     /// In the order of [`Constraint::of`].
     bounds: Vec<Bound<N, M>>,
 }
@@ -33,14 +33,38 @@ enum Bound<const N: usize, const M: usize> {
     Pair(Box<PairPart<N, M>>),
 }
 
-/// What bounds the aspects in one box, but for det A.
+/// What bounds the aspects of a mode in one box, but for det A.
 pub(super) struct Bounds<const M: usize> {
     /// All of these.
     pub all: ArrayVec<Growth<M>, MOST>,
+    /// How many of them, the first, bound the aspects of every mode.
+    common: usize,
     /// Of each of these pairs of thin bodies one of the lines.
     pub parted: ArrayVec<ArrayVec<[Side<M>; 2], LINES>, MOST_PARTED>,
     /// Where the joints of these are.
     pub places: Vec<(Joint, Place)>,
+    /// Whether these are all: if not, nothing may be proved of the box, for one that is left out could be the least.
+    pub are_all: bool,
+}
+
+impl<const M: usize> Default for Bounds<M> {
+    fn default() -> Self {
+        Self { all: ArrayVec::new(), common: 0, parted: ArrayVec::new(), places: Vec::new(), are_all: true }
+    }
+}
+
+impl<const M: usize> Bounds<M> {
+    fn add(&mut self, growth: Growth<M>) {
+        self.are_all &= self.all.try_push(growth).is_ok();
+    }
+
+    /// Forgets what is not common to all modes.
+    fn restart(&mut self) {
+        self.all.truncate(self.common);
+        self.parted.clear();
+        self.places.clear();
+        self.are_all = true;
+    }
 }
 
 /// Most pairs of thin bodies that may nearly touch in one box.
@@ -49,7 +73,7 @@ const MOST_PARTED: usize = 4;
 impl<'a, const D: usize, const N: usize, const M: usize> Way<'a, D, N, M> {
     /// With the whole range of h, and these legs as singular in each box.
     pub(super) fn new(view: &'a View<'a, D, N, M>, singular: &[Mask; N]) -> Self {
-        let legs = std::array::from_fn(|j| LegPart::new(view, j, view.heights[j], singular[j]));
+        let legs: Vec<_> = (0..N).map(|j| LegPart::new(view, j, view.heights[j], singular[j])).collect();
         let bounds = bounds(view, &legs);
         Self { view, legs, bounds }
     }
@@ -74,37 +98,12 @@ impl<'a, const D: usize, const N: usize, const M: usize> Way<'a, D, N, M> {
         }
     }
 
-    /// Returns all constraints but det A, and the ends of the window, in one box; `None` if they are more than
-    /// [`MOST`], so that nothing may be proved of it: one that is left out could be the least.
-    pub(super) fn constraints(
-        &self,
-        frame: &Frame<N, M>,
-        mode: WorkingMode,
-        lane: usize,
-    ) -> Option<Bounds<M>> {
-        let Self { view, legs, .. } = self;
-        let (mut all, mut fit) = (ArrayVec::<Growth<M>, MOST>::new(), true);
-        let (mut parted, mut places) = (ArrayVec::new(), Vec::new());
-        let mut add = |value: Interval, along| fit &= all.try_push(Growth { value, along }).is_ok();
-        let sign = |j: usize| f64::from(mode.sign(j));
-        for bound in &self.bounds {
-            match bound {
-                &Bound::Reach(j) => {
-                    let reach = view.reach[j].value.lane(lane).meet(legs[j].height.lane(lane).square());
-                    let height =
-                        (reach / Interval::point(view.scale[Constraint::Reach(LegIndex::new(j))])).sqrt();
-                    add(height, self.reach_along(frame, j, sign(j), lane));
-                }
-                Bound::Limit(part) if part.is_in(mode) => {
-                    let own: ArrayVec<_, N> =
-                        part.own.iter().map(|(j, own)| (*j, sign(*j), own.lane(lane))).collect();
-                    let along = frame.along(&part.field.gradient_in(lane), &own);
-                    let value = part.field.value.lane(lane) / Interval::point(view.scale[part.constraint]);
-                    let by_root = part.constraint.counts_by_root(view.robot);
-                    add(in_p(value, by_root), along);
-                }
-                Bound::Limit(_) | Bound::Pair(_) => {}
-            }
+    /// Begins a list of what bounds the aspects in one box with what does so in every mode.
+    pub(super) fn common(&self, frame: &Frame<N, M>, lane: usize) -> Bounds<M> {
+        let view = self.view;
+        let mut bounds = Bounds::default();
+        for j in self.reaches().filter(|&j| view.legs[j].fold.is_none()) {
+            bounds.add(self.reach(frame, j, 1.0, lane));
         }
         let (lo, hi) = view.paving.bounds(view.boxes[lane]);
         for (a, &k) in view.paving.axes.iter().enumerate() {
@@ -117,27 +116,74 @@ impl<'a, const D: usize, const N: usize, const M: usize> Way<'a, D, N, M> {
             ] {
                 if cut {
                     let gradient = std::array::from_fn(|b| Interval::point(if a == b { sign } else { 0.0 }));
-                    add(distance / Interval::point(last - first), frame.along(&gradient, &[]));
+                    let value = distance / Interval::point(last - first);
+                    bounds.add(Growth { value, along: frame.along(&gradient, &[]) });
                 }
+            }
+        }
+        bounds.common = bounds.all.len();
+        bounds
+    }
+
+    /// Goes on from what [`Way::common`] began, with all other constraints of a mode but det A.
+    pub(super) fn constrain(
+        &self,
+        frame: &Frame<N, M>,
+        mode: WorkingMode,
+        lane: usize,
+        bounds: &mut Bounds<M>,
+    ) {
+        let Self { view, legs, .. } = self;
+        bounds.restart();
+        let sign = |j: usize| f64::from(mode.sign(j));
+        for bound in &self.bounds {
+            match bound {
+                &Bound::Reach(j) if view.legs[j].fold.is_some() => {
+                    bounds.add(self.reach(frame, j, sign(j), lane));
+                }
+                Bound::Limit(part) if part.is_in(mode) => {
+                    let own: ArrayVec<_, N> =
+                        part.own.iter().map(|(j, own)| (*j, sign(*j), own.lane(lane))).collect();
+                    let along = frame.along(&part.field.gradient_in(lane), &own);
+                    let value = part.field.value.lane(lane) / Interval::point(view.scale[part.constraint]);
+                    let by_root = part.constraint.counts_by_root(view.robot);
+                    bounds.add(Growth { value: in_p(value, by_root), along });
+                }
+                Bound::Reach(_) | Bound::Limit(_) | Bound::Pair(_) => {}
             }
         }
         let heights = || postures(view, legs);
         for bound in &self.bounds {
             let Bound::Pair(part) = bound else { continue };
-            let least = all.iter().fold(f64::INFINITY, |least, growth| least.min(growth.value.hi));
             if !part.is_in(mode) {
                 continue;
             }
+            let least = bounds.all.iter().fold(f64::INFINITY, |least, growth| least.min(growth.value.hi));
             match part.found(view, heights, (frame, mode, lane), least) {
                 Found::Far => {}
-                Found::Least(distances) => fit &= distances.into_iter().all(|one| all.try_push(one).is_ok()),
+                Found::Least(distances) => distances.into_iter().for_each(|one| bounds.add(one)),
                 Found::Parted(lines, ends) => {
-                    places.extend(ends);
-                    fit &= parted.try_push(lines).is_ok();
+                    bounds.places.extend(ends);
+                    bounds.are_all &= bounds.parted.try_push(lines).is_ok();
                 }
             }
         }
-        fit.then_some(Bounds { all, parted, places })
+    }
+
+    /// The legs whose reach bounds the aspects.
+    fn reaches(&self) -> impl Iterator<Item = usize> {
+        self.bounds.iter().filter_map(|bound| match bound {
+            Bound::Reach(j) => Some(*j),
+            Bound::Limit(_) | Bound::Pair(_) => None,
+        })
+    }
+
+    /// The reach of leg j, in the posture with this sign.
+    fn reach(&self, frame: &Frame<N, M>, j: usize, sign: f64, lane: usize) -> Growth<M> {
+        let (view, height) = (self.view, self.legs[j].height.lane(lane));
+        let reach = view.reach[j].value.lane(lane).meet(height.square());
+        let value = (reach / Interval::point(view.scale[Constraint::Reach(LegIndex::new(j))])).sqrt();
+        Growth { value, along: self.reach_along(frame, j, sign, lane) }
     }
 
     /// The derivatives of H_j, or of an increasing function of it.
@@ -157,7 +203,7 @@ impl<'a, const D: usize, const N: usize, const M: usize> Way<'a, D, N, M> {
 /// [`Determinant`](super::determinant::Determinant).
 fn bounds<const D: usize, const N: usize, const M: usize>(
     view: &View<'_, D, N, M>,
-    legs: &[LegPart<N, M>; N],
+    legs: &[LegPart<N, M>],
 ) -> Vec<Bound<N, M>> {
     let heights = LazyCell::new(|| postures(view, legs));
     let of = |constraint: Constraint| -> ArrayVec<Bound<N, M>, MOST> {
@@ -186,7 +232,7 @@ fn bounds<const D: usize, const N: usize, const M: usize>(
 /// s h of every leg in both postures.
 fn postures<const D: usize, const N: usize, const M: usize>(
     view: &View<'_, D, N, M>,
-    legs: &[LegPart<N, M>; N],
+    legs: &[LegPart<N, M>],
 ) -> [[Form<M>; 2]; N] {
     std::array::from_fn(|j| view.postures(j, &legs[j]))
 }
