@@ -126,8 +126,8 @@ def main():
     # A stop leaves by the usual way out, so that the virtual environments are removed.
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     parser = argparse.ArgumentParser(prog="benches/peers/run", description=__doc__)
-    parser.add_argument("--depths", type=int, nargs="+", default=[7, 8, 9, 10], metavar="N",
-                        help="finest cells are window/2^N (default: 7 8 9 10)")
+    parser.add_argument("--depths", type=int, nargs="+", default=[7, 8, 9], metavar="N",
+                        help="finest cells are window/2^N (default: 7 8 9)")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write all figures to FILE")
     arguments = parser.parse_args()
     report = measure(arguments.depths)
