@@ -57,9 +57,9 @@ fn areas(paving: &Paving, shares: &Shares) -> (f64, f64) {
         }
     });
     for &(node, share) in shares.of(0) {
-        let area = paving.measure(paving.depth_of(node));
-        certified += f64::from(share.inside) * area;
-        undecided -= f64::from(share.inside + share.outside) * area;
+        let [inside, outside] = share.of(paving.measure(paving.depth_of(node)));
+        certified += inside;
+        undecided -= inside + outside;
     }
     (certified, undecided)
 }

@@ -47,7 +47,8 @@ pub struct Analyze {
     /// window, or for 4e7 boxes (4e6 where three rods can be parallel, a spherical leg can fold or det A vanishes everywhere: there
     /// the bounds stay apart); with it never longer. `depth` and `res` (in length units, or in radians where angles alone vary) say how
     /// fine boxes may get, so the bounds may stay apart; they also set how finely the rest is drawn and measured [default: depth 16
-    /// for 1 free coordinate, 11 for 2, 7 for 3; without --out as coarse as leaves 0.3 % of the measures undecided, or, in space, as 131072 boxes more than counts take]. Times depend on the machine, the others do not. Drawing --out comes on top
+    /// for 1 free coordinate, 11 for 2, 7 for 3; without --out as fine as leaves 0.3 % of the measures undecided, for up to 131072 boxes, or a
+    /// quarter, more than the counts take]. Times depend on the machine, the others do not. Drawing --out comes on top
     #[arg(long, value_parser = budget::parse, allow_hyphen_values = true)]
     budget: Option<Budget>,
     #[command(flatten)]

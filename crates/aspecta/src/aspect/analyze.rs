@@ -259,13 +259,14 @@ impl Found {
         let mut aspects: Vec<Aspect> = groups.iter().map(|g| aspect(atlas, class, components, g)).collect();
         let whole = |node: u32| paving.measure(paving.depth_of(node));
         let mut undecided: f64 = labels.iter().filter(|l| l.1 == 0).map(|l| whole(l.0)).sum();
-        let owner = counted.owners(groups.iter().map(|group| group.component));
-        for &(node, Share { inside, outside }) in shares {
-            undecided -= f64::from(outside) * whole(node);
+        let owner = counted.owners(&groups);
+        for &(node, share) in shares {
+            let [inside, outside] = share.of(whole(node));
+            undecided -= outside;
             // What may belong to an aspect that is not found stays undecided.
             if let Some(k) = owner(node) {
-                undecided -= f64::from(inside) * whole(node);
-                aspects[k].measure += f64::from(inside) * whole(node);
+                undecided -= inside;
+                aspects[k].measure += inside;
             }
         }
         let class = AspectClass {

@@ -199,13 +199,13 @@ impl<'a> Atlas<'a> {
         loop {
             let sampled = self.sampled(&fresh, limits.depth);
             let worth = sampled.is_none_or(|sampled| sampled.are_worth_it);
-            let open = if worth { self.survey(&fresh, limits) } else { fresh };
+            let open = if worth { self.survey(&fresh, !0, limits) } else { fresh };
             let (split, deepest): (Vec<Leaf>, Vec<Leaf>) =
                 open.into_iter().partition(|&leaf| self.depth_of(leaf) < limits.depth);
             if !worth {
                 // What cannot be split is searched all the same, for the classes that may be closed or are asked about.
                 let lost = sampled.filter(|_| !limits.names_doubts).map_or(0, |sampled| sampled.lost);
-                self.survey_classes(&deepest, !lost, limits);
+                self.survey(&deepest, !lost, limits);
             }
             if split.is_empty() {
                 return true;
@@ -271,13 +271,8 @@ impl<'a> Atlas<'a> {
         })
     }
 
-    /// Looks for summits in leaves, as long as the limits allow, and returns those in which some might be.
-    pub(super) fn survey(&mut self, leaves: &[Leaf], limits: &Limits<'_>) -> Vec<Leaf> {
-        self.survey_classes(leaves, !0, limits)
-    }
-
-    /// [`Atlas::survey`] of some classes.
-    fn survey_classes(&mut self, leaves: &[Leaf], classes: ClassSet, limits: &Limits<'_>) -> Vec<Leaf> {
+    /// Looks for summits of some classes in leaves, as long as the limits allow, and returns the leaves in which there might be one of any.
+    fn survey(&mut self, leaves: &[Leaf], classes: ClassSet, limits: &Limits<'_>) -> Vec<Leaf> {
         for (done, some) in leaves.chunks(SOME).enumerate() {
             if limits.is_over(self.boxes()) {
                 break;

@@ -60,27 +60,19 @@ impl Counted {
         self.closed.then(|| self.found.iter().map(|group| group.summits).sum())
     }
 
-    /// Whose aspect a box of poses holds parts of, as the position of its component among those given: `None` where that is not certain,
-    /// since the component may hold several.
-    pub(super) fn owners(&self, order: impl Iterator<Item = u32>) -> impl Fn(u32) -> Option<usize> {
-        let single = |component: &u32| {
-            let is_sure =
-                |group: &&Group| group.component == *component && group.anchored && group.summits == 1;
-            self.closed && self.found.iter().any(|group| is_sure(&group))
-        };
-        let position: BTreeMap<u32, usize> = order
-            .enumerate()
-            .map(|(k, component)| (component, k))
-            .filter(|(component, _)| single(component))
-            .collect();
+    /// Whose aspect a box of poses holds parts of, as a position among these groups: `None` where that is not certain, since the box's
+    /// component may hold several.
+    pub(super) fn owners(&self, groups: &[&Group]) -> impl Fn(u32) -> Option<usize> {
+        let is_sure = |group: &Group| self.closed && group.anchored && group.summits == 1;
+        let sure = groups.iter().enumerate().filter(|(_, group)| is_sure(group));
+        let position: BTreeMap<u32, usize> = sure.map(|(k, group)| (group.component, k)).collect();
         // One aspect owns all that there is of the class, what a chart covers too.
         let only = (self.is_exact() && self.low() == 1).then_some(0);
         move |node| {
-            if only.is_some() {
-                return only;
-            }
-            let at = self.components.boxes.binary_search(&(0, node)).ok()?;
-            position.get(&self.components.component_of[at]?).copied()
+            only.or_else(|| {
+                let at = self.components.boxes.binary_search(&(0, node)).ok()?;
+                position.get(&self.components.component_of[at]?).copied()
+            })
         }
     }
 

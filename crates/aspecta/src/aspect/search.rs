@@ -109,8 +109,11 @@ impl<'a> Search<'a> {
                 done: self.atlas.boxes() - counted,
                 total: most - counted,
             });
+            if is_over {
+                return Even { reached: false, ..even };
+            }
             even.changed = true;
-            if is_over || self.atlas.split(&split, limits).is_none() {
+            if self.atlas.split(&split, limits).is_none() {
                 return Even { reached: false, ..even };
             }
         }

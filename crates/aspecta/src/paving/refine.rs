@@ -116,17 +116,9 @@ impl Paving {
         leaves: &[u32],
         stop: &(impl Fn() -> bool + Sync),
     ) -> bool {
-        let mut by_depth: Vec<Vec<u32>> = Vec::new();
-        for &leaf in leaves {
-            let depth = self.depth_of(leaf) as usize;
-            if by_depth.len() <= depth {
-                by_depth.resize(depth + 1, Vec::new());
-            }
-            by_depth[depth].push(leaf);
-        }
         let mut all = true;
-        for (depth, parents) in by_depth.iter().enumerate().filter(|(_, parents)| !parents.is_empty()) {
-            let children = (depth as u32 + 1, parents.as_slice());
+        for (depth, parents) in self.by_depth(leaves.iter().copied()) {
+            let children = (depth + 1, parents.as_slice());
             all &= for_paving!(robot, self.axes.len(), split_level(self, robot, charts, children, stop));
         }
         all

@@ -16,6 +16,13 @@ pub struct Share {
     pub outside: f32,
 }
 
+impl Share {
+    /// What lies inside and what lies outside, of a box of this measure.
+    pub fn of(self, measure: f64) -> [f64; 2] {
+        [self.inside, self.outside].map(|share| f64::from(share) * measure)
+    }
+}
+
 /// How far something is proved to hold over each of eight boxes.
 pub(super) trait Known: Copy {
     /// All over the boxes.
@@ -170,18 +177,16 @@ impl Shares {
 
     /// Takes account of what the paving was split into since it was looked at last.
     pub fn update(&mut self, paving: &Paving, robot: &Robot) {
+        let first = std::mem::replace(&mut self.nodes, paving.nodes.len() as u32);
+        if first == self.nodes {
+            return;
+        }
         self.of_class.resize(2 * paving.modes.len(), Vec::new());
         let is_leaf = |node: u32| paving.nodes[node as usize].first_child == 0;
         self.of_class.iter_mut().for_each(|shares| shares.retain(|share| is_leaf(share.0)));
-        let mut by_depth = vec![Vec::new(); paving.depth as usize + 1];
-        let first = std::mem::replace(&mut self.nodes, paving.nodes.len() as u32);
-        for (at, node) in (first..).zip(&paving.nodes[first as usize..]) {
-            if node.first_child == 0 && node.undecided != 0 {
-                by_depth[usize::from(node.depth)].push(at);
-            }
-        }
-        for (depth, leaves) in (0..).zip(&by_depth) {
-            let fresh = for_paving!(robot, paving.axes.len(), shares_of_level(paving, robot, depth, leaves));
+        let is_open = |&node: &u32| is_leaf(node) && paving.nodes[node as usize].undecided != 0;
+        for (depth, leaves) in paving.by_depth((first..self.nodes).filter(is_open)) {
+            let fresh = for_paving!(robot, paving.axes.len(), shares_of_level(paving, robot, depth, &leaves));
             self.of_class.iter_mut().zip(fresh).for_each(|(shares, more)| shares.extend(more));
         }
         self.of_class.iter_mut().for_each(|shares| shares.sort_unstable_by_key(|share| share.0));
@@ -189,11 +194,10 @@ impl Shares {
 
     /// Leaves that leave most undecided, all classes added up: the fewest that hold three quarters of it, the worst first.
     pub fn worst(&self, paving: &Paving) -> Vec<u32> {
-        let mut undecided: Vec<(u32, f64)> = Vec::new();
-        for &(node, Share { inside, outside }) in self.of_class.iter().flatten() {
-            let left = 1.0 - f64::from(inside) - f64::from(outside);
-            undecided.push((node, left * paving.measure(paving.depth_of(node))));
-        }
+        let mut undecided: Vec<(u32, f64)> = self
+            .parts(paving)
+            .map(|(node, whole, [inside, outside])| (node, whole - inside - outside))
+            .collect();
         undecided.sort_unstable_by_key(|leaf| leaf.0);
         undecided.dedup_by(|next, first| {
             let is_same = next.0 == first.0;
@@ -217,12 +221,19 @@ impl Shares {
         // What a box lies inside of its children do.
         let inside: f64 = leaves.map(|(at, node)| whole(at) * f64::from(node.inside.count_ones())).sum();
         let mut sum = [inside, 0.0];
-        for &(node, Share { inside, outside }) in self.of_class.iter().flatten() {
-            let (inside, outside) = (f64::from(inside), f64::from(outside));
-            sum[0] += inside * whole(node);
-            sum[1] += (1.0 - inside - outside) * whole(node);
+        for (_, whole, [inside, outside]) in self.parts(paving) {
+            sum[0] += inside;
+            sum[1] += whole - inside - outside;
         }
         sum
+    }
+
+    /// The leaves, of all classes one after the other, each with its measure and what of it is inside and outside.
+    fn parts(&self, paving: &Paving) -> impl Iterator<Item = (u32, f64, [f64; 2])> {
+        self.of_class.iter().flatten().map(|&(node, share)| {
+            let whole = paving.measure(paving.depth_of(node));
+            (node, whole, share.of(whole))
+        })
     }
 }
 

@@ -5,6 +5,7 @@ use aspecta_kinematics::chart::Chart;
 use aspecta_robot::WorkingMode;
 use aspecta_robot::num::Interval;
 use aspecta_robot::{ClassSet, LegIndex, Window};
+use std::collections::BTreeMap;
 
 /// A box: cell `corner` of the grid window / 2^depth.
 ///
@@ -103,6 +104,13 @@ impl Paving {
     /// Depth of the node with this index.
     pub fn depth_of(&self, node: u32) -> u32 {
         self.nodes[node as usize].depth.into()
+    }
+
+    /// Nodes, depth by depth, those of one depth in the order given.
+    pub(super) fn by_depth(&self, nodes: impl Iterator<Item = u32>) -> BTreeMap<u32, Vec<u32>> {
+        let mut by_depth = BTreeMap::<u32, Vec<u32>>::new();
+        nodes.for_each(|node| by_depth.entry(self.depth_of(node)).or_default().push(node));
+        by_depth
     }
 
     /// The larger of two boxes, the first of two equal ones.

@@ -2,7 +2,6 @@
 
 use super::form::{Field, Form};
 use crate::paving::Paving;
-use arrayvec::ArrayVec;
 use aspecta_kinematics::chart::Coordinates;
 use aspecta_kinematics::constraints::Scale;
 use aspecta_kinematics::modal::LegClosure;
@@ -70,6 +69,8 @@ pub(super) struct Row<const N: usize, const M: usize> {
     /// The parts of the row: fixed + s h swing.
     pub fixed: [Form<M>; N],
     pub swing: [Form<M>; N],
+    /// Lanes in which it is bounded.
+    bounded: Mask,
 }
 
 /// Centred forms over eight boxes.
@@ -106,10 +107,7 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
             (view.parted[first], view.parted[second]) = (true, true);
         }
         view.rows = (0..N).map(|j| view.row(j)).collect();
-        for weight in (0..N).filter_map(|j| view.weight(j)).collect::<ArrayVec<_, N>>() {
-            let positive = weight.value.range.positive();
-            (0..LANES).for_each(|l| view.usable[l] &= positive[l]);
-        }
+        view.usable = std::array::from_fn(|l| view.rows.iter().all(|row| row.bounded[l]));
         // One H, in one enclosure: which of them count as singular must not differ, though their frames may.
         for (second, first) in (0..N).filter_map(|j| Some((j, view.twin_of[j]?))) {
             view.reach[second] = view.reach[first];
@@ -127,19 +125,15 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
         })
     }
 
-    /// What row j of A has to be divided by, where that varies.
-    fn weight(&self, j: usize) -> Option<Form<M>> {
-        let is_weighted = self.legs[j].is_weighted(&self.robot.legs[j]) && self.twin_of[j].is_none();
-        is_weighted.then(|| self.legs[j].closure.weight.tightened())
-    }
-
     /// Row j of A itself, not times the weight: what varies least is enclosed best. What stands in place of the row of a leg that is one with
     /// an earlier one is a polynomial, times the weight.
     fn row(&self, j: usize) -> Row<N, M> {
         let (robot, leg) = (self.robot, &self.robot.legs[j]);
         let LegClosure { closure, arm, .. } = &self.legs[j];
-        let inverse =
-            self.weight(j).map(|weight| (Form::constant(Interval::point(1.0)) / weight).tightened());
+        let has_twin = self.twin_of[j].is_some();
+        let weight = (self.legs[j].is_weighted(leg) && !has_twin).then(|| closure.weight.tightened());
+        let bounded = weight.map_or([true; LANES], |weight| weight.value.range.positive());
+        let inverse = weight.map(|weight| (Form::constant(Interval::point(1.0)) / weight).tightened());
         let row = |part: &[Form<M>; D]| -> [Form<M>; N] {
             let part = match &inverse {
                 Some(inverse) => &each!(|k| (part[k].tightened() * *inverse).tightened()),
@@ -148,11 +142,12 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
             let row: [Form<M>; N] = wrench(robot.platform, &out_of_frame(leg, part), arm);
             each!(|k| row[k].tightened())
         };
-        let (zero, has_twin) = ([Form::zero(); N], self.twin_of[j].is_some());
+        let zero = [Form::zero(); N];
         Row {
             smooth: if self.rooted[j] { closure.reach.tightened().sqrt() } else { Form::zero() },
             fixed: if has_twin { zero } else { row(&closure.fixed) },
             swing: if self.rooted[j] && (!self.parted[j] || has_twin) { row(&closure.swing) } else { zero },
+            bounded,
         }
     }
 }
