@@ -234,3 +234,29 @@ fn a_refusal_leaves_no_directory() {
     assert_eq!(plan("4.1,7"), Some(0));
     assert!(out.join("motion.html").is_file());
 }
+
+/// Names in a legend end within the picture, as wide as letters of their size are on average.
+#[test]
+fn no_legend_of_a_motion_is_cut() {
+    let directory = tempfile::tempdir().unwrap();
+    let ends = "--from 9,4 --to 12,4 --mode +-";
+    stdout(&format!("plan ../../examples/five-bar-cell.toml {ends} --out {}", directory.path().display()));
+    let page = fs::read_to_string(directory.path().join("motion.html")).unwrap();
+    let number = |element: &str, key: &str| -> f64 {
+        let (_, from) = element.split_once(&format!(" {key}=\"")).unwrap();
+        from.split('"').next().unwrap().parse().unwrap()
+    };
+    let mut seen = Vec::new();
+    for svg in page.split("<svg ").skip(1) {
+        let width = number(&format!(" {svg}"), "width");
+        for element in svg.split("<text").skip(1).filter(|element| element.contains("text-anchor=\"start\""))
+        {
+            let (start, rest) = element.split_once('>').unwrap();
+            let name = rest.split('<').next().unwrap();
+            let end = number(start, "x") + 0.5 * number(start, "font-size") * name.chars().count() as f64;
+            assert!(end <= width, "`{name}` ends at {end} of {width}");
+            seen.push(name.to_owned());
+        }
+    }
+    assert!(["others", "det B = 0", "contact"].iter().all(|name| seen.iter().any(|s| s == name)), "{seen:?}");
+}

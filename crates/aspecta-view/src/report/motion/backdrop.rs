@@ -165,10 +165,11 @@ impl<'a> Map<'a> {
                 x = swatch(svg, [x, y], &palette::shade(other.number(), 1, 2), "others");
             }
         }
-        x = swatch(svg, [x, y], UNDECIDED, "undecided");
-        x = sample_line(svg, [x, y], Kind::Parallel, "det A = 0");
-        sample_line(svg, [x, y], Kind::Serial, "det B = 0");
-        // In a row of its own: all samples in one are wider than the picture may be.
-        limit_samples(svg, [left, y + 17.0], lines.iter().map(|line| line.0));
+        swatch(svg, [x, y], UNDECIDED, "undecided");
+        // Lines in a row of their own: all samples in one are wider than the picture may be.
+        let y = y + 17.0;
+        let x = sample_line(svg, [left, y], Kind::Parallel, "det A = 0");
+        let x = sample_line(svg, [x, y], Kind::Serial, "det B = 0");
+        limit_samples(svg, [x, y], lines.iter().map(|line| line.0));
     }
 }
