@@ -11,7 +11,7 @@
 //! diagonal, up to the sign of the permutation. Complete pivoting leaves what nearly vanishes to the last
 //! column of Z, the only one that is large.
 
-use aspecta_robot::num::{Interval, LANES, Pack, Scalar, Slope, each};
+use aspecta_robot::num::{Affine, Interval, LANES, Pack, Scalar, each};
 
 /// Z for each of eight boxes.
 pub struct Conditioner<const N: usize> {
@@ -22,9 +22,9 @@ pub struct Conditioner<const N: usize> {
 
 impl<const N: usize> Conditioner<N> {
     /// For matrices over eight boxes. Where one is singular at the middle Z is the identity.
-    pub fn new<const M: usize>(rows: &[[Slope<Pack, M>; N]; N]) -> Self {
+    pub fn new<const M: usize>(rows: &[[Affine<M>; N]; N]) -> Self {
         let lanes: [([[f64; N]; N], Interval); LANES] = std::array::from_fn(|l| {
-            triangular(std::array::from_fn(|j| std::array::from_fn(|k| rows[j][k].centre.lane(l).mid())))
+            triangular(std::array::from_fn(|j| std::array::from_fn(|k| rows[j][k].lane(l).0)))
                 .unwrap_or_else(|| (identity(), Interval::point(1.0)))
         });
         let entry = |i: usize, k: usize| Pack::from_fn(|l| Interval::point(lanes[l].0[i][k]));
@@ -35,11 +35,11 @@ impl<const N: usize> Conditioner<N> {
     }
 
     /// A row of A Z, given that of A.
-    pub fn row<const M: usize>(&self, row: &[Slope<Pack, M>; N]) -> [Slope<Pack, M>; N] {
+    pub fn row<const M: usize>(&self, row: &[Affine<M>; N]) -> [Affine<M>; N] {
         each!(|k| {
-            let mut sum = row[0].times(self.z[0][k]);
+            let mut sum = row[0].times(&self.z[0][k]);
             for i in 1..N {
-                sum = sum + row[i].times(self.z[i][k]);
+                sum = sum + row[i].times(&self.z[i][k]);
             }
             sum.tightened()
         })

@@ -9,7 +9,7 @@ use super::condition::Conditioner;
 use super::minors::Minors;
 use super::placement::{Placement, determinant, minor, out_of_frame, wrench};
 use aspecta_robot::legs::{Closure, Drive};
-use aspecta_robot::num::{Interval, Pack, Scalar, Slope, each};
+use aspecta_robot::num::{Affine, Interval, Scalar, each};
 use aspecta_robot::{Leg, LegIndex, Robot};
 
 /// Every leg at one pose (or box of poses), with q eliminated; h not yet chosen.
@@ -219,13 +219,13 @@ impl<T: Scalar, const N: usize> ModalRows<T, N> {
     }
 }
 
-impl<const N: usize, const M: usize> ModalRows<Slope<Pack, M>, N> {
+impl<const N: usize, const M: usize> ModalRows<Affine<M>, N> {
     /// [`ModalRows::det`] over eight boxes, times some positive number: more work, but mostly much narrower where N > 3 (the
     /// module `condition`).
-    pub fn conditioned_det(&self, mode: WorkingMode) -> Slope<Pack, M> {
+    pub fn conditioned_det(&self, mode: WorkingMode) -> Affine<M> {
         let rows: [[_; N]; N] = std::array::from_fn(|j| self.row(j, mode.sign(j)));
         let by = Conditioner::new(&rows);
-        determinant(&rows.map(|row| by.row(&row))).tightened().times(by.det)
+        determinant(&rows.map(|row| by.row(&row))).tightened().times(&by.det)
     }
 }
 

@@ -8,14 +8,18 @@
 //! | [`Interval`] | bounds that hold the exact value: *certified* |
 //! | [`Ball`] | the same as midpoint and radius, faster where ranges are narrow |
 //! | [`Pack`] | eight intervals at once, for eight sibling boxes of a paving |
+//! | [`Affine`] | the functions over eight boxes as linear ones up to an error, second-order tight |
 //! | [`Slope`] over either | range, centre and slopes: the centred form, second-order tight |
 //! | [`Jet`] | the value and its gradient (forward mode) |
 
+mod affine;
 mod ball;
 mod disc;
 mod exact;
 mod interval;
 mod jet;
+mod kernel;
+mod lanes;
 mod nearest;
 mod pack;
 mod random;
@@ -23,6 +27,7 @@ mod slope;
 mod trig;
 mod written;
 
+pub use affine::{Affine, Line};
 pub use ball::Ball;
 pub use disc::Disc;
 pub use interval::Interval;
@@ -177,18 +182,13 @@ pub fn cross<T: Scalar>(a: &[T; 3], b: &[T; 3]) -> [T; 3] {
 /// Σ cₖ aₖ with constant cₖ: exact zeros cost nothing.
 #[inline]
 pub fn dot_constant<T: Scalar, const D: usize>(c: &[Interval], a: &[T; D]) -> T {
-    let mut sum: Option<T> = None;
-    for k in 0..D {
-        if c[k] == Interval::point(0.0) {
-            continue;
-        }
-        let term = a[k].scale(c[k]);
-        sum = Some(match sum {
-            Some(s) => s + term,
-            None => term,
-        });
+    let mut terms = (0..D).filter(|&k| c[k] != Interval::point(0.0));
+    let Some(first) = terms.next() else { return T::zero() };
+    let mut sum = a[first].scale(c[first]);
+    for k in terms {
+        sum = sum + a[k].scale(c[k]);
     }
-    sum.unwrap_or_else(T::zero)
+    sum
 }
 
 /// Numbers, and zeros after them; those that do not fit are left out.

@@ -1,6 +1,6 @@
 //! Slopes: enclosures of difference quotients about a centre.
 
-use super::{Ball, Interval, Nearest, Pack, Scalar, TwoLinks, each};
+use super::{Ball, Interval, Nearest, Pack, Scalar, TwoLinks, each, kernel::kernel};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// An enclosing scalar on which slopes can be built.
@@ -69,37 +69,6 @@ impl Enclosure for Ball {
     }
 }
 
-/// Runs a kernel on references as one outlined call, compiled for AVX2 where the processor has it.
-///
-/// Intervals use no fused operations, so the bits do not depend on the instructions. The 3-RRR's paving takes
-/// 0.75 times as long with it (`docs/performance.md`).
-macro_rules! kernel {
-    ($bound:ident, ($($arg:ident: $type:ty),*) -> $out:ty $body:block) => {{
-        #[inline(always)]
-        fn body<T: $bound, const N: usize>($($arg: $type),*) -> $out $body
-
-        #[inline(never)]
-        fn plain<T: $bound, const N: usize>($($arg: $type),*) -> $out {
-            body($($arg),*)
-        }
-
-        #[cfg(target_arch = "x86_64")]
-        {
-            #[inline(never)]
-            #[target_feature(enable = "avx2")]
-            fn wide<T: $bound, const N: usize>($($arg: $type),*) -> $out {
-                body($($arg),*)
-            }
-            if is_x86_feature_detected!("avx2") {
-                // SAFETY: the processor has the feature, as just checked.
-                #[allow(unsafe_code)]
-                return unsafe { wide($($arg),*) };
-            }
-        }
-        plain($($arg),*)
-    }};
-}
-
 /// A function f over a box c + r∘t, t ∈ [−1, 1]^N: its range, its value at the centre c, and slopes s with
 ///
 /// > f(c + r∘t) ∈ f(c) + Σ sₖ tₖ.
@@ -134,7 +103,7 @@ impl<T: Enclosure, const N: usize> Slope<T, N> {
     pub fn times(self, c: T) -> Self {
         let f = &self;
         let c = &c;
-        kernel!(Enclosure, (f: &Slope<T, N>, c: &T) -> Slope<T, N> {
+        kernel!({T: Enclosure, const N: usize} (f: &Slope<T, N>, c: &T) -> Slope<T, N> {
             Slope { range: f.range * *c, centre: f.centre * *c, slope: each!(|k| f.slope[k] * *c) }
         })
     }
@@ -156,7 +125,7 @@ impl<T: Enclosure, const N: usize> Scalar for Slope<T, N> {
     #[inline(always)]
     fn square(self) -> Self {
         let f = &self;
-        kernel!(Enclosure, (f: &Slope<T, N>) -> Slope<T, N> {
+        kernel!({T: Enclosure, const N: usize} (f: &Slope<T, N>) -> Slope<T, N> {
             let quotient = f.range + f.centre;
             Slope { range: f.range.square(), centre: f.centre.square(), slope: each!(|k| f.slope[k] * quotient) }
         })
@@ -242,7 +211,7 @@ impl<T: Enclosure, const N: usize> Scalar for Slope<T, N> {
         }
         let f = &self;
         let c = &c;
-        kernel!(Scalar, (f: &Slope<T, N>, c: &Interval) -> Slope<T, N> {
+        kernel!({T: Scalar, const N: usize} (f: &Slope<T, N>, c: &Interval) -> Slope<T, N> {
             Slope { range: f.range.scale(*c), centre: f.centre.scale(*c), slope: each!(|k| f.slope[k].scale(*c)) }
         })
     }
@@ -251,7 +220,7 @@ impl<T: Enclosure, const N: usize> Scalar for Slope<T, N> {
     #[inline(always)]
     fn tightened(self) -> Self {
         let f = &self;
-        kernel!(Enclosure, (f: &Slope<T, N>) -> Slope<T, N> {
+        kernel!({T: Enclosure, const N: usize} (f: &Slope<T, N>) -> Slope<T, N> {
             let mut spread = f.slope[0].symmetric();
             for k in 1..N {
                 spread = spread + f.slope[k].symmetric();
@@ -275,7 +244,7 @@ impl<T: Scalar, const N: usize> Add for Slope<T, N> {
     fn add(self, b: Self) -> Self {
         let a = &self;
         let b = &b;
-        kernel!(Scalar, (a: &Slope<T, N>, b: &Slope<T, N>) -> Slope<T, N> {
+        kernel!({T: Scalar, const N: usize} (a: &Slope<T, N>, b: &Slope<T, N>) -> Slope<T, N> {
             Slope {
                 range: a.range + b.range,
                 centre: a.centre + b.centre,
@@ -291,7 +260,7 @@ impl<T: Scalar, const N: usize> Sub for Slope<T, N> {
     fn sub(self, b: Self) -> Self {
         let a = &self;
         let b = &b;
-        kernel!(Scalar, (a: &Slope<T, N>, b: &Slope<T, N>) -> Slope<T, N> {
+        kernel!({T: Scalar, const N: usize} (a: &Slope<T, N>, b: &Slope<T, N>) -> Slope<T, N> {
             Slope {
                 range: a.range - b.range,
                 centre: a.centre - b.centre,
@@ -308,7 +277,7 @@ impl<T: Scalar, const N: usize> Mul for Slope<T, N> {
     fn mul(self, b: Self) -> Self {
         let a = &self;
         let b = &b;
-        kernel!(Scalar, (a: &Slope<T, N>, b: &Slope<T, N>) -> Slope<T, N> {
+        kernel!({T: Scalar, const N: usize} (a: &Slope<T, N>, b: &Slope<T, N>) -> Slope<T, N> {
             Slope {
                 range: a.range * b.range,
                 centre: a.centre * b.centre,

@@ -48,7 +48,7 @@ pub(super) struct Components {
     /// The piece of each box (component of G⁻), or `None` if undecided, or covered and connected to none
     /// that is not.
     pub piece_of: Vec<Option<u32>>,
-    /// The component of G⁺ of each box, named by the box index of its root; `None` for covered boxes.
+    /// The component of G⁺ of each box, named by what was the box index of its root; `None` for covered boxes.
     pub component_of: Vec<Option<u32>>,
     /// The pieces, in the order of their first box.
     pub pieces: Vec<Piece>,
@@ -92,11 +92,12 @@ impl Components {
         let index = Index::new(sheets, &boxes);
         let node = |(s, at): Leaf| &sheets[s].nodes[at as usize];
         let is_inside = |leaf: Leaf| classify(node(leaf)) == Mark::Inside;
+        let inside: Vec<bool> = boxes.iter().map(|&leaf| is_inside(leaf)).collect();
+        let covered: Vec<bool> = boxes.iter().map(|&leaf| is_covered(node(leaf))).collect();
         let mut all = UnionFind::new(boxes.len());
         let mut inner = UnionFind::new(boxes.len());
-        let mut may_touch = |a: Leaf, b: Leaf, surely: bool| {
-            let (i, j) = (index.of(a), index.of(b));
-            if !is_covered(node(a)) && !is_covered(node(b)) {
+        let mut may_touch = |i: u32, j: u32, surely: bool| {
+            if !covered[i as usize] && !covered[j as usize] {
                 all.union(i, j);
                 if !surely {
                     visit(i, j);
@@ -104,19 +105,18 @@ impl Components {
             }
         };
         for (s, paving) in sheets.iter().enumerate() {
-            paving.touching(&kept, &mut |a, b| {
-                let (a, b) = ((s, a), (s, b));
-                let surely = is_inside(a) && is_inside(b);
-                may_touch(a, b, surely);
+            paving.touching_by(&kept, &|at| index.of((s, at)), &mut |i, j| {
+                let surely = inside[i as usize] && inside[j as usize];
+                may_touch(i, j, surely);
                 if surely {
-                    inner.union(index.of(a), index.of(b));
+                    inner.union(i, j);
                 }
             });
         }
         for (a, b) in folds(robot, &sheets[0], &kept) {
-            may_touch((0, a), (0, b), false);
+            may_touch(index.of((0, a)), index.of((0, b)), false);
         }
-        seams::outer(robot, sheets, &kept, &mut |a, b| may_touch(a, b, false));
+        seams::outer(robot, sheets, &kept, &mut |a, b| may_touch(index.of(a), index.of(b), false));
         let mut met = Vec::new();
         seams::inner(robot, sheets, &kept, &mut |a, b, surely| {
             let (i, j) = (index.of(a), index.of(b));
@@ -125,19 +125,19 @@ impl Components {
                 met.push(b);
             }
         });
-        let mut root = |i: u32| (!is_covered(node(boxes[i as usize]))).then(|| all.root(i));
+        let mut root = |i: u32| (!covered[i as usize]).then(|| all.root(i));
         let component_of = (0..boxes.len() as u32).map(&mut root).collect();
         let mut components =
             Self { piece_of: vec![None; boxes.len()], component_of, pieces: Vec::new(), seams: met, boxes };
-        components.gather(sheets, &is_inside, &mut inner);
+        components.gather(sheets, &inside, &mut inner);
         components
     }
 
-    fn gather(&mut self, sheets: &[Paving], is_inside: &impl Fn(Leaf) -> bool, inner: &mut UnionFind) {
+    fn gather(&mut self, sheets: &[Paving], inside: &[bool], inner: &mut UnionFind) {
         let mut piece_at_root = vec![u32::MAX; self.boxes.len()];
         for i in 0..self.boxes.len() {
             let (s, at) = self.boxes[i];
-            if !is_inside((s, at)) {
+            if !inside[i] {
                 continue;
             }
             let Some(component) = self.component_of[i] else { continue };
@@ -151,7 +151,7 @@ impl Components {
                 piece.largest.1 = sheets[s].larger(piece.largest.1, at);
             }
         }
-        for i in (0..self.boxes.len()).filter(|&i| is_inside(self.boxes[i])) {
+        for i in (0..self.boxes.len()).filter(|&i| inside[i]) {
             let piece = piece_at_root[inner.root(i as u32) as usize];
             self.piece_of[i] = (piece != u32::MAX).then_some(piece);
             let (s, at) = self.boxes[i];
@@ -161,10 +161,59 @@ impl Components {
         }
     }
 
+    /// Puts in the place of undecided boxes of poses that were split what they became: boxes of the same component, those inside of the
+    /// piece that `owner` names for it. What is inside where no box was, as covered, belongs to no component.
+    pub(super) fn refine(
+        &mut self,
+        poses: &Paving,
+        classify: &impl Fn(&Node) -> Mark,
+        owner: &impl Fn(Option<u32>) -> Option<u32>,
+    ) {
+        let mut whose: Vec<Option<Whose>> = vec![None; poses.nodes.len()];
+        let later = self.boxes.partition_point(|leaf| leaf.0 == 0);
+        for i in 0..later {
+            let is = Whose { component: self.component_of[i], piece: self.piece_of[i] };
+            whose[self.boxes[i].1 as usize] = Some(is);
+        }
+        // Children come after their parent.
+        for at in 0..poses.nodes.len() {
+            let undecided = whose[at].filter(|whose| whose.piece.is_none());
+            poses.children(at as u32).for_each(|child| {
+                whose[child as usize] = whose[child as usize].or(undecided);
+            });
+        }
+        let mut found: Vec<(u32, Whose)> = Vec::with_capacity(later);
+        poses.boxes_of(classify, &mut |at| {
+            let is_inside = classify(&poses.nodes[at as usize]) == Mark::Inside;
+            let mut is = match whose[at as usize] {
+                Some(is) => is,
+                None if is_inside => Whose::default(),
+                None => return,
+            };
+            if is_inside && is.piece.is_none() {
+                is.piece = owner(is.component);
+                let piece = is.piece.map(|piece| &mut self.pieces[piece as usize]);
+                piece.into_iter().for_each(|piece| piece.measure += poses.measure(poses.depth_of(at)));
+            }
+            found.push((at, is));
+        });
+        found.sort_unstable_by_key(|(at, _)| *at);
+        self.boxes.splice(..later, found.iter().map(|(at, _)| (0, *at)));
+        self.component_of.splice(..later, found.iter().map(|(_, is)| is.component));
+        self.piece_of.splice(..later, found.iter().map(|(_, is)| is.piece));
+    }
+
     /// The piece that holds a box.
     pub(super) fn piece_at(&self, leaf: Leaf) -> Option<u32> {
         self.boxes.binary_search(&leaf).ok().and_then(|i| self.piece_of[i])
     }
+}
+
+/// The component of G⁺ and the piece that a box belongs to.
+#[derive(Clone, Copy, Default)]
+struct Whose {
+    component: Option<u32>,
+    piece: Option<u32>,
 }
 
 /// The position of each box in the list of boxes.

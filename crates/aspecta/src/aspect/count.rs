@@ -3,7 +3,7 @@
 use super::ascent::{Class, Path, merge};
 use super::atlas::{Atlas, Leaf, Limits};
 use super::components::{Components, UnionFind};
-use crate::paving::{ClassSet, Node};
+use crate::paving::{ClassSet, Node, Paving};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 /// The components of a class and what is proved of their number.
@@ -74,6 +74,21 @@ impl Counted {
                 position.get(&self.components.component_of[at]?).copied()
             })
         }
+    }
+
+    /// Puts in the place of boxes of poses that were split what they became.
+    ///
+    /// Where the bounds meet, all that there is of the class in a component of G⁺ belongs to its one aspect; and if there is one only, all
+    /// that there is in covered boxes.
+    pub(super) fn refine(&mut self, poses: &Paving, class: Class) {
+        let anchored = || self.found.iter().filter(|group| group.anchored);
+        let pieces: BTreeMap<u32, u32> = anchored().map(|group| (group.component, group.pieces[0])).collect();
+        let only = (pieces.len() == 1).then(|| anchored().next().map(|group| group.pieces[0])).flatten();
+        let owner = |component: Option<u32>| match component {
+            Some(component) => pieces.get(&component).copied(),
+            None => only,
+        };
+        self.components.refine(poses, &|node| node.of_classes(class.bit), &owner);
     }
 
     /// Whether the bounds meet.

@@ -53,7 +53,7 @@ impl<'a> Search<'a> {
         let even = search.even_out(budget, purpose, &limits);
         afforded &= even.reached;
         if even.changed {
-            search.recount(&limits, |_| true);
+            search.take_over(&limits);
         }
         if purpose != Purpose::Boxes {
             search.shares.update(&search.atlas.sheets[0], robot);
@@ -147,6 +147,19 @@ impl<'a> Search<'a> {
         self.remember(limits);
     }
 
+    /// Takes over what boxes of poses that were split became: classes are counted once more, but where it is clear whose they are.
+    fn take_over(&mut self, limits: &Limits<'_>) {
+        let alone = self.atlas.sheets.len() == 1;
+        let is_clear = |counted: &Counted| counted.is_exact() && (alone || counted.low() == 1);
+        let poses = &self.atlas.sheets[0];
+        work::update(&mut self.counted, |(class, counted): &mut (Class, Counted)| {
+            if is_clear(counted) {
+                counted.refine(poses, *class);
+            }
+        });
+        self.recount(limits, |counted| !is_clear(counted));
+    }
+
     /// Has the atlas remember which boxes the counts found to have no summit, or to lie in a chart: then
     /// counts are due again.
     fn remember(&mut self, limits: &Limits<'_>) {
@@ -186,7 +199,10 @@ impl<'a> Search<'a> {
             let unsettled =
                 self.counted.iter().filter(open).fold(0, |unsettled, (class, _)| unsettled | class.bit);
             let mut tips: Vec<Leaf> = ways.into_iter().collect();
-            for _ in 0..AHEAD {
+            for level in 0..FAR_AHEAD {
+                if level >= AHEAD && fresh.len() as u64 > self.atlas.boxes() >> FEW {
+                    break;
+                }
                 tips = self.atlas.undecided_children(&tips, unsettled);
                 if tips.len() > limits.affordable(&self.atlas) {
                     break;
@@ -214,8 +230,12 @@ const FINE: f64 = 0.003;
 /// As many boxes may be taken to leave no more, or a quarter of those that the counts took.
 const MEASURING: u64 = 1 << 17;
 
-/// How many levels further ways are followed at once.
+/// How many levels further ways are followed at once …
 const AHEAD: usize = 2;
+/// … and as long as that is little work, beside another count of all boxes …
+const FAR_AHEAD: usize = 6;
+/// … which it is for one box in 2^this.
+const FEW: u32 = 8;
 
 /// How long the last count and the report take, in counts.
 const AFTER: f64 = 2.0;

@@ -50,7 +50,7 @@ use determinant::Determinant;
 use frame::Frame;
 use std::cell::LazyCell;
 use view::View;
-use way::Way;
+use way::{Bounds, Way};
 
 /// Constraints that are compared over one box: more than any robot file brings to bear at once. Of a box with
 /// more nothing is proved.
@@ -207,9 +207,10 @@ impl<'a, const D: usize, const N: usize, const M: usize> Eight<'a, D, N, M> {
             })
             .collect();
         let mut proved = [0; LANES];
+        let mut bounds = Bounds::new();
         for l in (0..LANES).filter(|&l| asked[l] != 0) {
             let Some(frame) = Frame::new(view, &way.legs, l) else { continue };
-            let mut bounds = way.common(&frame, l);
+            way.common(&frame, l, &mut bounds);
             for (m, &mode) in modes().filter(|(m, _)| asked[l] >> (2 * m) & 3 != 0) {
                 way.constrain(&frame, mode, l, &mut bounds);
                 if !bounds.are_all {
@@ -248,7 +249,8 @@ impl<'a, const D: usize, const N: usize, const M: usize> Eight<'a, D, N, M> {
             return 0;
         }
         let Some(frame) = Frame::new(view, &way.legs, lane) else { return 0 };
-        let mut all = way.common(&frame, lane);
+        let mut all = Bounds::new();
+        way.common(&frame, lane, &mut all);
         way.constrain(&frame, mode, lane, &mut all);
         if !all.are_all {
             return 0;

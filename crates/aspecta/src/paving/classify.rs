@@ -11,28 +11,24 @@ use aspecta_kinematics::constraints::{Configuration, Constraint, Kind};
 use aspecta_kinematics::modal::{LegClosure, ModalRows};
 use aspecta_kinematics::placement::Placement;
 use aspecta_kinematics::{LegIndex, LegSet, WorkingMode};
-use aspecta_robot::num::{Interval, LANES, Mask, Pack, Scalar, Slope, each};
+use aspecta_robot::num::{Affine, Interval, LANES, Line, Mask, each};
 use aspecta_robot::{Robot, Window};
 
 /// One coordinate of the boxes of one level, for every index along it: computed once a level where the level
 /// is well filled, so that no sine is evaluated in the inner loop.
 #[derive(Clone, Copy)]
 struct Slab {
-    range: Interval,
-    middle: Interval,
-    /// An upper bound of the distance from the middle to either end.
-    radius: f64,
-    /// (sin, cos) over the range and at the middle; unused for lengths.
-    turn: (Interval, Interval),
-    turn_middle: (Interval, Interval),
+    line: Line,
+    /// (sin, cos); unused for lengths.
+    turn: (Line, Line),
 }
 
 impl Slab {
     fn new(range: Interval, angle: bool) -> Self {
-        let middle = Interval::point(range.mid());
-        let zero = (Interval::point(0.0), Interval::point(0.0));
-        let (turn, turn_middle) = if angle { (range.sin_cos(), middle.sin_cos()) } else { (zero, zero) };
-        Self { range, middle, radius: (range - middle).magnitude(), turn, turn_middle }
+        let middle = range.mid();
+        let radius = (range - Interval::point(middle)).magnitude();
+        let line = Line::variable(middle, radius);
+        Self { line, turn: if angle { Line::turn(middle, radius) } else { (line, line) } }
     }
 }
 
@@ -133,34 +129,22 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
     }
 
     /// The robot over eight boxes.
-    fn over(
-        &self,
-        boxes: &[Node; LANES],
-    ) -> (Placement<Slope<Pack, M>, D>, [LegClosure<Slope<Pack, M>, D>; N]) {
+    fn over(&self, boxes: &[Node; LANES]) -> (Placement<Affine<M>, D>, [LegClosure<Affine<M>, D>; N]) {
         let slabs: [[Slab; LANES]; N] =
             std::array::from_fn(|k| std::array::from_fn(|l| self.slab(k, &boxes[l].corner)));
-        let pack = |k: usize, f: fn(&Slab) -> Interval| Pack::from_fn(|l| f(&slabs[k][l]));
-        let function = |k: usize, range: Pack, centre: Pack, quotient: Option<Pack>| {
-            let mut f = Slope::<Pack, M> { range, centre, slope: [Pack::zero(); M] };
-            if let Some(a) = self.axes.iter().position(|&axis| axis == k) {
-                let radius = pack(k, |s| Interval::point(s.radius));
-                f.slope[a] = quotient.map_or(radius, |q| q * radius);
-            }
-            f
-        };
-        let y: [_; N] = each!(|k| function(k, pack(k, |s| s.range), pack(k, |s| s.middle), None));
-        self.chart.at::<Slope<Pack, M>, D, N>(self.robot, &y, |k| {
-            let (sin, cos) = (pack(k, |s| s.turn.0), pack(k, |s| s.turn.1));
-            let (sin_c, cos_c) = (pack(k, |s| s.turn_middle.0), pack(k, |s| s.turn_middle.1));
-            (function(k, sin, sin_c, Some(cos)), function(k, cos, cos_c, Some(-sin)))
-        })
+        // What does not vary has no extent, along whatever axis.
+        let axis = |k: usize| self.axes.iter().position(|&axis| axis == k).unwrap_or(0);
+        let of = |k: usize, line: fn(&Slab) -> Line| Affine::<M>::along(axis(k), |l| line(&slabs[k][l]));
+        let y: [_; N] = each!(|k| of(k, |slab| slab.line));
+        self.chart
+            .at::<Affine<M>, D, N>(self.robot, &y, |k| (of(k, |slab| slab.turn.0), of(k, |slab| slab.turn.1)))
     }
 
     fn decide(
         &self,
         boxes: &mut [Node; LANES],
-        placement: &Placement<Slope<Pack, M>, D>,
-        legs: &[LegClosure<Slope<Pack, M>, D>; N],
+        placement: &Placement<Affine<M>, D>,
+        legs: &[LegClosure<Affine<M>, D>; N],
     ) {
         let (closes, out) = closing::<Mask, D, N, M>(legs);
         let mut wanted: u8 = 0;
@@ -177,7 +161,7 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
             let covers: ArrayVec<(Mask, Mask), 4> = chart
                 .cover(self.robot, legs)
                 .into_iter()
-                .map(|margin| margin.tightened().range)
+                .map(|margin| margin.range())
                 .map(|margin| (margin.positive(), margin.negative()))
                 .collect();
             for (l, node) in boxes.iter_mut().enumerate() {
@@ -221,8 +205,8 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
                         // Most bodies are far apart.
                         Constraint::Apart(_, k) => {
                             let bodies = at(mode).bodies(k);
-                            let far = bodies.margin_of_surroundings().tightened();
-                            if far.range.positive() == [true; LANES] { far } else { bodies.margin() }
+                            let far = bodies.margin_of_surroundings();
+                            if far.range().positive() == [true; LANES] { far } else { bodies.margin() }
                         }
                         Constraint::Limit(..)
                         | Constraint::RodAngle(..)
@@ -268,11 +252,11 @@ impl<'a, const D: usize, const N: usize, const M: usize> Classifier<'a, D, N, M>
 
 /// The placement of the platform, the legs and their heights over eight boxes.
 type OfRobot<'a, const D: usize, const N: usize, const M: usize> =
-    (&'a Placement<Slope<Pack, M>, D>, &'a [LegClosure<Slope<Pack, M>, D>; N], &'a [[Slope<Pack, M>; 2]; N]);
+    (&'a Placement<Affine<M>, D>, &'a [LegClosure<Affine<M>, D>; N], &'a [[Affine<M>; 2]; N]);
 
 /// How far all legs close, and how far one of them surely does not.
 fn closing<K: Known, const D: usize, const N: usize, const M: usize>(
-    legs: &[LegClosure<Slope<Pack, M>, D>; N],
+    legs: &[LegClosure<Affine<M>, D>; N],
 ) -> (K, K) {
     let mut all = (K::EVERYWHERE, K::NOWHERE);
     // A strut closes everywhere (its H is q², zero only on a set that separates nothing).
@@ -299,7 +283,7 @@ impl<K> ByMode<K> {
         modes: &[WorkingMode],
         wanted: u8,
         legs: LegSet,
-        function: impl Fn(WorkingMode) -> Slope<Pack, M>,
+        function: impl Fn(WorkingMode) -> Affine<M>,
     ) where
         K: Known,
     {

@@ -4,7 +4,7 @@ use super::classify::Classifier;
 use super::refine::{CHUNK, for_paving};
 use super::tree::Paving;
 use arrayvec::ArrayVec;
-use aspecta_robot::num::{LANES, Mask, Pack, Scalar, Slope};
+use aspecta_robot::num::{Affine, LANES, Mask};
 use aspecta_robot::{Robot, work};
 
 /// What is certain of a box that is undecided as a whole.
@@ -34,7 +34,7 @@ pub(super) trait Known: Copy {
     fn where_all(mask: Mask) -> Self;
 
     /// How far f > 0, and how far f < 0.
-    fn signs<const M: usize>(f: &Slope<Pack, M>) -> [Self; 2];
+    fn signs<const M: usize>(f: &Affine<M>) -> [Self; 2];
 
     /// How far both hold.
     fn and(self, other: Self) -> Self;
@@ -55,8 +55,8 @@ impl Known for Mask {
         mask
     }
 
-    fn signs<const M: usize>(f: &Slope<Pack, M>) -> [Self; 2] {
-        let range = f.tightened().range;
+    fn signs<const M: usize>(f: &Affine<M>) -> [Self; 2] {
+        let range = f.range();
         [range.positive(), range.negative()]
     }
 
@@ -85,22 +85,17 @@ impl Known for Part {
         Self(mask.map(|all| f64::from(u8::from(all))))
     }
 
-    /// f(t) > lo + Σ mₖ tₖ − Σ ρₖ with the slopes mₖ ± ρₖ: f is positive on a half of the box, cut by a plane, and negative on another.
+    /// f(t) ≥ c + Σ sₖ tₖ − r: f is positive on a part of the box, cut off by a plane, and negative on another.
     /// What lies between the two planes shrinks like the square of the box.
-    fn signs<const M: usize>(f: &Slope<Pack, M>) -> [Self; 2] {
-        let f = f.tightened();
-        let (positive, negative) = (f.range.positive(), f.range.negative());
+    fn signs<const M: usize>(f: &Affine<M>) -> [Self; 2] {
+        let range = f.range();
+        let (positive, negative) = (range.positive(), range.negative());
         let shares = |l: usize| {
             if positive[l] || negative[l] {
                 return [positive[l], negative[l]].map(|all| f64::from(u8::from(all)));
             }
-            let slope = f.slope.map(|s| s.lane(l));
-            let middle = slope.map(|s| s.mid());
-            // Rounded up: of each difference, and of their sum.
-            let loose =
-                slope.iter().zip(&middle).map(|(s, m)| (s.hi - m).max(m - s.lo)).sum::<f64>() * (1.0 + SLACK);
-            let centre = f.centre.lane(l);
-            [share_above(centre.lo - loose, &middle), share_above(-centre.hi - loose, &middle)]
+            let (centre, slope, radius) = f.lane(l);
+            [share_above(centre - radius, &slope), share_above(-centre - radius, &slope)]
         };
         let both: [[f64; 2]; LANES] = std::array::from_fn(shares);
         [0, 1].map(|sign| Self(both.map(|shares| shares[sign])))
@@ -140,7 +135,7 @@ fn share_above<const M: usize>(c: f64, slopes: &[f64; M]) -> f64 {
     let below = 0.5 * total - (c - flat);
     // The smaller part is added up of fewer corners.
     let share = match () {
-        () if below <= 0.0 => 1.0,
+        () if below < 0.0 => 1.0,
         () if below < 0.5 * total => 1.0 - corner(below, &steep),
         () if below < total => corner(total - below, &steep),
         () => 0.0,

@@ -13,71 +13,106 @@ type Offset = [i8; 3];
 impl Paving {
     /// Visits every pair of boxes of a set (boxes as in [`Paving::boxes_of`]) that share a point.
     pub fn touching(&self, classify: &impl Fn(&Node) -> Mark, visit: &mut impl FnMut(u32, u32)) {
-        let walk = Walk { paving: self, steps: Steps::new(self.axes.len()) };
-        walk.within(0, classify, visit);
+        self.touching_by(classify, &|node| node, visit);
+    }
+
+    /// [`Paving::touching`], with a number below 2³¹ for each box.
+    pub fn touching_by(
+        &self,
+        classify: &impl Fn(&Node) -> Mark,
+        number_of: &impl Fn(u32) -> u32,
+        visit: &mut impl FnMut(u32, u32),
+    ) {
+        let outline = Outline::new(self, classify, number_of);
+        let walk =
+            Walk { words: &outline.0, children: 1 << self.axes.len(), steps: Steps::new(self.axes.len()) };
+        walk.within(0, visit);
         let glued: Vec<bool> = self.axes.iter().map(|&k| self.window.glued[k]).collect();
         // The window's neighbour across each set of glued axes is the window itself.
         for wrap in offsets(self.axes.len()).filter(is_first) {
             if (0..self.axes.len()).all(|a| wrap[a] == 0 || glued[a]) {
-                walk.between(0, 0, number(wrap), classify, visit);
+                walk.between(0, 0, number(wrap), visit);
             }
+        }
+    }
+}
+
+/// The tree of a set alone, a word a node, so that walks stay in the cache: 0 where nothing of the set is, 2i + 1 for the box with number i, and 2k
+/// for a node whose children begin at k.
+struct Outline(Vec<u32>);
+
+impl Outline {
+    fn new(paving: &Paving, classify: &impl Fn(&Node) -> Mark, number_of: &impl Fn(u32) -> u32) -> Self {
+        let mut outline = Self(vec![0]);
+        outline.fill(paving, classify, number_of, (0, 0));
+        outline
+    }
+
+    /// Fills in a node, whose word has a place.
+    fn fill(
+        &mut self,
+        paving: &Paving,
+        classify: &impl Fn(&Node) -> Mark,
+        number_of: &impl Fn(u32) -> u32,
+        (at, place): (u32, usize),
+    ) {
+        let node = &paving.nodes[at as usize];
+        match classify(node) {
+            Mark::Outside => {}
+            Mark::Open if node.first_child != 0 => {
+                let first = self.0.len();
+                self.0[place] = 2 * first as u32;
+                self.0.resize(first + (1 << paving.axes.len()), 0);
+                for (child, place) in paving.children(at).zip(first..) {
+                    self.fill(paving, classify, number_of, (child, place));
+                }
+            }
+            Mark::Open | Mark::Inside => self.0[place] = 2 * number_of(at) + 1,
         }
     }
 }
 
 struct Walk<'a> {
-    paving: &'a Paving,
+    words: &'a [u32],
+    children: u32,
     steps: Steps,
 }
 
 impl Walk<'_> {
     /// Pairs inside one node.
-    fn within(&self, at: u32, classify: &impl Fn(&Node) -> Mark, visit: &mut impl FnMut(u32, u32)) {
-        let node = &self.paving.nodes[at as usize];
-        if node.first_child == 0 || classify(node) != Mark::Open {
+    fn within(&self, at: u32, visit: &mut impl FnMut(u32, u32)) {
+        let word = self.words[at as usize];
+        if word == 0 || word % 2 == 1 {
             return;
         }
-        for child in self.paving.children(at) {
-            self.within(child, classify, visit);
+        let first = word / 2;
+        for child in 0..self.children {
+            self.within(first + child, visit);
         }
         for &(i, j, offset) in &self.steps.siblings {
-            self.between(node.first_child + i, node.first_child + j, offset, classify, visit);
+            self.between(first + i, first + j, offset, visit);
         }
     }
 
     /// Pairs of a box in `a` and a box in `b`, where b lies at `offset` of a.
-    fn between(
-        &self,
-        a: u32,
-        b: u32,
-        offset: usize,
-        classify: &impl Fn(&Node) -> Mark,
-        visit: &mut impl FnMut(u32, u32),
-    ) {
-        let (node_a, node_b) = (&self.paving.nodes[a as usize], &self.paving.nodes[b as usize]);
-        let (mark_a, mark_b) = (classify(node_a), classify(node_b));
-        if mark_a == Mark::Outside || mark_b == Mark::Outside {
+    fn between(&self, a: u32, b: u32, offset: usize, visit: &mut impl FnMut(u32, u32)) {
+        let (word_a, word_b) = (self.words[a as usize], self.words[b as usize]);
+        if word_a == 0 || word_b == 0 {
             return;
         }
-        let end_a = mark_a == Mark::Inside || node_a.first_child == 0;
-        let end_b = mark_b == Mark::Inside || node_b.first_child == 0;
-        let (first_a, first_b) = (node_a.first_child, node_b.first_child);
-        match (end_a, end_b) {
-            (true, true) => visit(a, b),
+        let (first_a, first_b) = (word_a / 2, word_b / 2);
+        match (word_a % 2 == 1, word_b % 2 == 1) {
+            (true, true) => visit(first_a, first_b),
             // Only one goes down: its children on the side that faces the other.
             (true, false) => {
-                self.steps.behind[offset]
-                    .iter()
-                    .for_each(|j| self.between(a, first_b + j, offset, classify, visit));
+                self.steps.behind[offset].iter().for_each(|j| self.between(a, first_b + j, offset, visit));
             }
             (false, true) => {
-                self.steps.ahead[offset]
-                    .iter()
-                    .for_each(|i| self.between(first_a + i, b, offset, classify, visit));
+                self.steps.ahead[offset].iter().for_each(|i| self.between(first_a + i, b, offset, visit));
             }
             (false, false) => {
                 for &(i, j, finer) in &self.steps.both[offset] {
-                    self.between(first_a + i, first_b + j, finer, classify, visit);
+                    self.between(first_a + i, first_b + j, finer, visit);
                 }
             }
         }

@@ -14,6 +14,7 @@ mod counts;
 mod cusps;
 mod direct;
 mod domains;
+mod enclosures;
 mod explore;
 mod follow;
 mod free_body;

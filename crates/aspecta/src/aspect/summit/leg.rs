@@ -2,7 +2,7 @@
 
 use super::form::Form;
 use super::view::{Row, View};
-use aspecta_robot::num::{Interval, Mask, Pack, Scalar, Slope, each};
+use aspecta_robot::num::{Affine, Interval, Mask, Pack, Scalar, each};
 
 /// The part of a leg's functions that depends on the range of h.
 pub(super) struct LegPart<const N: usize, const M: usize> {
@@ -46,7 +46,7 @@ impl<const D: usize, const N: usize, const M: usize> View<'_, D, N, M> {
         // H need not be above zero at the centre: h's own slopes are of no use near a singularity.
         let own = match height == self.heights[j] {
             true => smooth.value,
-            false => Slope { range: height, centre: height, slope: [Pack::zero(); M] },
+            false => Affine::within(&height),
         };
         select(singular, &Form::fixed(own), smooth)
     }
@@ -63,13 +63,8 @@ impl<const D: usize, const N: usize, const M: usize> View<'_, D, N, M> {
 
 /// Lane by lane, `yes` where the mask holds, else `no`.
 fn select<const M: usize>(mask: &Mask, yes: &Form<M>, no: &Form<M>) -> Form<M> {
-    let slope = |yes: &Slope<Pack, M>, no: &Slope<Pack, M>| Slope {
-        range: Pack::select(mask, yes.range, no.range),
-        centre: Pack::select(mask, yes.centre, no.centre),
-        slope: each!(|k| Pack::select(mask, yes.slope[k], no.slope[k])),
-    };
     Form {
-        value: slope(&yes.value, &no.value),
-        gradient: each!(|k| slope(&yes.gradient[k], &no.gradient[k])),
+        value: Affine::select(mask, &yes.value, &no.value),
+        gradient: each!(|k| Affine::select(mask, &yes.gradient[k], &no.gradient[k])),
     }
 }

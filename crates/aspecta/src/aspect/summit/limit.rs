@@ -1,6 +1,6 @@
 //! One limit over eight boxes, in one choice of the postures on which it depends.
 
-use super::form::{Field, Form, range};
+use super::form::{Field, Form};
 use super::view::View;
 use arrayvec::ArrayVec;
 use aspecta_kinematics::constraints::{Configuration, Constraint};
@@ -30,7 +30,7 @@ impl<const N: usize, const M: usize> LimitPart<N, M> {
         let at = Configuration { robot, placement, legs, heights, mode };
         let field = Field::of(&(at.margin(constraint) / at.unit(constraint)));
         let legs = (0..N).filter(|&j| constraint.postures().holds(LegIndex::new(j)));
-        let own = legs.map(|j| (j, range(at.by_height(constraint, j, |f| f.value)))).collect();
+        let own = legs.map(|j| (j, at.by_height(constraint, j, |f| f.value).range())).collect();
         Self { constraint, mode, field, own }
     }
 

@@ -4,13 +4,13 @@
 //! it only where it can be the least.
 
 use super::climb::Growth;
-use super::form::{Field, Form, range};
+use super::form::{Field, Form};
 use super::frame::Frame;
 use super::turns::{Place, implied};
 use super::view::View;
 use arrayvec::ArrayVec;
 use aspecta_kinematics::constraints::{Beside, Configuration, Constraint, Feature, Joint, Line, Turn};
-use aspecta_robot::num::{Interval, Pack, Scalar, Slope};
+use aspecta_robot::num::{Affine, Interval, Pack, Scalar};
 use aspecta_robot::{LegIndex, Robot, WorkingMode};
 use std::cell::OnceCell;
 
@@ -66,18 +66,18 @@ impl<const N: usize, const M: usize> PairPart<N, M> {
         mode: WorkingMode,
     ) -> Self {
         let (placement, legs) = view.plain();
-        let heights: [[Slope<Pack, M>; 2]; N] = heights.each_ref().map(|both| both.map(|h| h.value));
+        let heights: [[Affine<M>; 2]; N] = heights.each_ref().map(|both| both.map(|h| h.value));
         let at = Configuration { robot: view.robot, placement, legs, heights: &heights, mode };
         let bodies = at.bodies(k);
         let place = |end: usize| {
             let end = bodies.end(end);
-            [end[0], end[1]].map(range)
+            [end[0], end[1]].map(|x| x.range())
         };
         let ends = match view.robot.pairs[k].is_thin() {
             true => std::array::from_fn(place),
             false => [[Pack::zero(); 2]; 4],
         };
-        Self { k, constraint, mode, margin: range(bodies.margin()), ends, pieces: OnceCell::new() }
+        Self { k, constraint, mode, margin: bodies.margin().range(), ends, pieces: OnceCell::new() }
     }
 
     /// The pair with other h.
@@ -119,7 +119,7 @@ impl<const N: usize, const M: usize> PairPart<N, M> {
                     field: Field::of(&bodies.feature(feature)),
                     own: by_height
                         .iter()
-                        .map(|(j, by)| (*j, range(by.feature(feature).gradient[0])))
+                        .map(|(j, by)| (*j, by.feature(feature).gradient[0].range()))
                         .collect(),
                 }
             };

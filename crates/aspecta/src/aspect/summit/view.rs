@@ -6,7 +6,7 @@ use aspecta_kinematics::chart::Coordinates;
 use aspecta_kinematics::constraints::Scale;
 use aspecta_kinematics::modal::LegClosure;
 use aspecta_kinematics::placement::{Placement, out_of_frame, wrench};
-use aspecta_robot::num::{Interval, LANES, Mask, Pack, Scalar, Slope, each};
+use aspecta_robot::num::{Affine, Interval, LANES, Line, Mask, Pack, Scalar, each};
 use aspecta_robot::{LegIndex, Robot};
 use std::cell::OnceCell;
 
@@ -25,11 +25,11 @@ pub(super) fn over<const D: usize, const N: usize, const M: usize>(
         None => Form::constant(Interval::point(paving.window.ranges[k].0)),
         Some(a) => {
             let extent = cells.map(|(lo, hi)| Interval::new(lo[a], hi[a]));
-            let middle = Pack::from_fn(|l| Interval::point(extent[l].mid()));
-            let extent = Pack::from_fn(|l| extent[l]);
-            let r = Pack::from_fn(|l| Interval::point((extent.lane(l) - middle.lane(l)).magnitude()));
-            let mut y = Form::fixed(Slope::variable(extent, middle, r, a));
-            y.gradient[a] = Slope { range: r, centre: r, slope: [Pack::zero(); M] };
+            let middle = extent.map(Interval::mid);
+            let r: [f64; LANES] =
+                std::array::from_fn(|l| (extent[l] - Interval::point(middle[l])).magnitude());
+            let mut y = Form::fixed(Affine::along(a, |l| Line::variable(middle[l], r[l])));
+            y.gradient[a] = Affine::within(&Pack::from_fn(|l| Interval::point(r[l])));
             y
         }
     });
@@ -75,7 +75,7 @@ pub(super) struct Row<const N: usize, const M: usize> {
 
 /// Centred forms over eight boxes.
 type Plain<const D: usize, const N: usize, const M: usize> =
-    (Placement<Slope<Pack, M>, D>, [LegClosure<Slope<Pack, M>, D>; N]);
+    (Placement<Affine<M>, D>, [LegClosure<Affine<M>, D>; N]);
 
 impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
     pub(super) fn new(
@@ -132,7 +132,7 @@ impl<'a, const D: usize, const N: usize, const M: usize> View<'a, D, N, M> {
         let LegClosure { closure, arm, .. } = &self.legs[j];
         let has_twin = self.twin_of[j].is_some();
         let weight = (self.legs[j].is_weighted(leg) && !has_twin).then(|| closure.weight.tightened());
-        let bounded = weight.map_or([true; LANES], |weight| weight.value.range.positive());
+        let bounded = weight.map_or([true; LANES], |weight| weight.value.range().positive());
         let inverse = weight.map(|weight| (Form::constant(Interval::point(1.0)) / weight).tightened());
         let row = |part: &[Form<M>; D]| -> [Form<M>; N] {
             let part = match &inverse {

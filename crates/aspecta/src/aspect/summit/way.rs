@@ -47,13 +47,12 @@ pub(super) struct Bounds<const M: usize> {
     pub are_all: bool,
 }
 
-impl<const M: usize> Default for Bounds<M> {
-    fn default() -> Self {
+impl<const M: usize> Bounds<M> {
+    /// Of nothing yet.
+    pub(super) fn new() -> Self {
         Self { all: ArrayVec::new(), common: 0, parted: ArrayVec::new(), places: Vec::new(), are_all: true }
     }
-}
 
-impl<const M: usize> Bounds<M> {
     fn add(&mut self, growth: Growth<M>) {
         self.are_all &= self.all.try_push(growth).is_ok();
     }
@@ -98,10 +97,11 @@ impl<'a, const D: usize, const N: usize, const M: usize> Way<'a, D, N, M> {
         }
     }
 
-    /// Begins a list of what bounds the aspects in one box with what does so in every mode.
-    pub(super) fn common(&self, frame: &Frame<N, M>, lane: usize) -> Bounds<M> {
+    /// Begins the list of what bounds the aspects in one box anew, with what does so in every mode.
+    pub(super) fn common(&self, frame: &Frame<N, M>, lane: usize, bounds: &mut Bounds<M>) {
         let view = self.view;
-        let mut bounds = Bounds::default();
+        bounds.common = 0;
+        bounds.restart();
         for j in self.reaches().filter(|&j| view.legs[j].fold.is_none()) {
             bounds.add(self.reach(frame, j, 1.0, lane));
         }
@@ -122,7 +122,6 @@ impl<'a, const D: usize, const N: usize, const M: usize> Way<'a, D, N, M> {
             }
         }
         bounds.common = bounds.all.len();
-        bounds
     }
 
     /// Goes on from what [`Way::common`] began, with all other constraints of a mode but det A.
