@@ -36,7 +36,10 @@ use std::path::{Path, PathBuf};
     "Print the whole result as JSON, and nothing else, on stdout (angles in radians)"
 )))]
 #[command(mut_args(help("deg", OF_FIX_AND_TABLES)))]
-#[command(mut_args(help("mode", "Only aspects of this working mode, such as `+-+`")))]
+#[command(mut_args(help(
+    "mode",
+    "Only aspects of this working mode, such as `+-+`: only that mode is analysed, unless --save or --aspect asks for the numbers that all aspects have"
+)))]
 #[command(mut_args(value_name("mode", "SIGNS")))]
 #[command(mut_args(help("det", "Only aspects with this sign of det A")))]
 #[command(mut_args(help("threads", threads::OF_NO_WEIGHT)))]
@@ -83,8 +86,8 @@ struct Output<'a> {
 const FIX: &str = "\
     Hold a coordinate at a value and cut that slice: x=-4, phi=0.5 (radians) or phi=30deg; again, or \
     separated by commas, for several. Solutions are counted wherever they are, in the whole class of \
-    the aspect (working mode and sign of det A). With --mode only that mode is analysed. Robots with \
-    6 coordinates have 3 free ones at most";
+    the aspect (working mode and sign of det A). Robots with 6 coordinates \
+    have 3 free ones at most";
 
 const OUT: &str = "\
     Write pictures into this directory: basic regions, the largest uniqueness domain, basic \
@@ -145,9 +148,10 @@ impl Domains {
                 "--save keeps maps of whole workspaces: leave out --fix, or take --json".into(),
             ));
         }
-        // On a slice aspects are numbered within what is analysed; of a whole robot, as `analyze` numbers
-        // them.
-        let modes = if fix.is_empty() { Vec::new() } else { wanted.mode.into_iter().collect() };
+        // In maps, and where one is named by its number, aspects are numbered as `analyze` numbers those of all modes; on a slice, within
+        // what is analysed.
+        let are_numbered = fix.is_empty() && (self.save.is_some() || self.aspect.is_some());
+        let modes = if are_numbered { Vec::new() } else { wanted.mode.into_iter().collect() };
         Ok(Part { fix, modes })
     }
 
